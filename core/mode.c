@@ -1,0 +1,313 @@
+/* One mode of a slab lit by a beam.
+ *
+ *   E1, E2, E3   divided differences of exponentials (expdiff.h)
+ *   Theta(t)     E1(t; k, q) = (e^(-k t) - e^(-q t)) / (q - k)
+ *   Sh(t)        E2(t; -k, k, q), the convolution of sinh(k .)/k with e^(-q .)
+ *   C(t)         the convolution of cosh(k .) with e^(-q .) = sinh(k t)/k - q Sh(t)
+ *   x            w - tau
+ *
+ * Why four kinds: e^(-q tau) as particular solution is 0/0 at k = q; Theta is right there
+ * but leaves a constant to be cancelled in thick slabs with small k; the exponentials of
+ * the homogeneous part coincide as k w -> 0; and in thin slabs the particular solution
+ * has to vanish at tau = 0 or everything is a difference of nearly equal numbers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/mode.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "core/expdiff.h"
+
+/* sinh(k t) / k, smooth at k = 0. Only for k t < 1. */
+static double sinh_over(double k, double t) {
+    double z = k * t;
+    return z > 1e-4 ? sinh(z) / k : t * (1 + z * z / 6);
+}
+
+void pps_mode_beam(pps_mode *mode, double k, double w, double q, double alpha,
+                   double beta) {
+    mode->k = k;
+    mode->w = w;
+    mode->q = q;
+    mode->alpha = alpha;
+    mode->beta = beta;
+    mode->c1 = mode->c2 = 0;
+    if (k * w < 1) { /* false for k = 0 in a half-space, where 0 * inf is NaN */
+        mode->kind = w * q < 2 ? PPS_MODE_THIN : PPS_MODE_SMALL;
+    } else {
+        mode->kind = fabs(k - q) < q / 2 ? PPS_MODE_RESONANT : PPS_MODE_NORMAL;
+    }
+    switch (mode->kind) {
+    case PPS_MODE_THIN:
+        mode->p = 0;
+        break;
+    case PPS_MODE_RESONANT: /* psi = p Theta */
+        mode->p = (alpha + q * beta) / (k + q);
+        break;
+    case PPS_MODE_SMALL:
+    case PPS_MODE_NORMAL: /* psi = p e^(-q tau) */
+        mode->p = -(alpha + q * beta) / ((q - k) * (q + k));
+        break;
+    }
+}
+
+/* C(t) and Sh(t). */
+static void thin_beam(const pps_mode *mode, double t, double *c, double *sh) {
+    *sh = pps_exp2(t, -mode->k, mode->k, mode->q);
+    *c = sinh_over(mode->k, t) - mode->q * *sh;
+}
+
+static void particular(const pps_mode *mode, double tau, double *psi, double *phi) {
+    double k = mode->k, q = mode->q, p = mode->p, eqt = exp(-q * tau);
+    double c, sh, theta;
+    switch (mode->kind) {
+    case PPS_MODE_THIN:
+        thin_beam(mode, tau, &c, &sh);
+        *psi = mode->beta * c - mode->alpha * sh;
+        *phi = mode->alpha * c - mode->beta * k * k * sh;
+        break;
+    case PPS_MODE_RESONANT:
+        theta = isinf(tau) ? 0 : pps_exp1(tau, k, q);
+        *psi = p * theta;
+        *phi = (mode->beta - p) * eqt + k * p * theta;
+        break;
+    case PPS_MODE_SMALL:
+    case PPS_MODE_NORMAL:
+        *psi = p * eqt;
+        *phi = (mode->beta + q * p) * eqt;
+        break;
+    }
+}
+
+void pps_mode_particular(const pps_mode *mode, double psi[2], double phi[2]) {
+    particular(mode, 0, &psi[0], &phi[0]);
+    particular(mode, mode->w, &psi[1], &phi[1]);
+}
+
+double pps_k_tanh(double k, double half) { return k > 0 ? k * tanh(k * half) : 0; }
+
+double pps_k_coth(double k, double half) {
+    double z = k * half;
+    return z > 1e-4 ? k / tanh(z) : isinf(half) ? 0 : (1 + z * z / 3) / half;
+}
+
+double pps_2k_csch(double k, double w) {
+    double z = k * w;
+    if (isinf(w) || z > 700) {
+        return 0;
+    }
+    return z > 1e-4 ? 2 * k / sinh(z) : 2 / (w * (1 + z * z / 6));
+}
+
+void pps_mode_close(pps_mode *mode, const pps_mode_edges *edges) {
+    double k = mode->k, half = mode->w / 2;
+    switch (mode->kind) {
+    case PPS_MODE_THIN: /* phi_h = -psi_h'; the particular part is 0 at tau = 0 ... */
+        mode->c1 = edges->even - edges->odd;
+        mode->c2 = edges->even * pps_k_tanh(k, half) -
+                   edges->odd * pps_k_coth(k, half);
+        break;
+    case PPS_MODE_SMALL:
+        mode->c1 = edges->bottom;
+        mode->c2 = edges->top;
+        break;
+    case PPS_MODE_RESONANT:
+    case PPS_MODE_NORMAL: {
+        /* [bottom sinh(k tau) + top sinh(k x)] / sinh(k w), by exponentials. */
+        double ekw = k > 0 ? exp(-k * mode->w) : 0;
+        double scale = -expm1(-2 * k * mode->w);
+        if (isinf(mode->w)) {
+            scale = 1;
+        }
+        mode->c1 = (edges->top - edges->bottom * ekw) / scale;
+        mode->c2 = (edges->bottom - edges->top * ekw) / scale;
+        break;
+    }
+    }
+}
+
+void pps_mode_solve(pps_mode *mode, double g) {
+    double psi[2], phi[2], half = mode->w / 2;
+    pps_mode_particular(mode, psi, phi);
+    double r_top = -(g * psi[0] + phi[0]), r_bottom = -(g * psi[1] - phi[1]);
+    double even = g + pps_k_tanh(mode->k, half), odd = g + pps_k_coth(mode->k, half);
+    double cross = isinf(half) ? 0 : pps_2k_csch(mode->k, mode->w) / (even * odd);
+    double mean = (1 / even + 1 / odd) / 2;
+    pps_mode_edges edges = {
+        .even = (r_top + r_bottom) / (2 * even),
+        .odd = (r_bottom - r_top) / (2 * odd),
+        .bottom = mean * r_bottom + cross * r_top / 2,
+        .top = mean * r_top + cross * r_bottom / 2,
+    };
+    if (isinf(half)) { /* even and odd solutions coincide: G + k */
+        edges.top = r_top / (g + mode->k);
+        edges.bottom = 0;
+    }
+    pps_mode_close(mode, &edges);
+}
+
+/* e^(-k w) sinh(k t) / k over (1 - e^(-2 k w)) / (2 k): sinh(k t) / sinh(k w). */
+static double sinh_share(double k, double w, double t) {
+    return exp(-k * (w - t)) * pps_exp1(t, 0, 2 * k) / pps_exp1(w, 0, 2 * k);
+}
+
+/* k cosh(k t) / sinh(k w). */
+static double cosh_share(double k, double w, double t) {
+    return (exp(-k * (w - t)) + exp(-k * (w + t))) / (2 * pps_exp1(w, 0, 2 * k));
+}
+
+void pps_mode_state(const pps_mode *mode, double tau, double *psi, double *phi) {
+    double k = mode->k, w = mode->w, x = w - tau;
+    particular(mode, tau, psi, phi);
+    switch (mode->kind) {
+    case PPS_MODE_THIN: {
+        double ch = cosh(k * tau), sh = sinh_over(k, tau);
+        *psi += ch * mode->c1 - sh * mode->c2;
+        *phi += ch * mode->c2 - k * k * sh * mode->c1;
+        break;
+    }
+    case PPS_MODE_SMALL:
+        *psi += mode->c1 * sinh_share(k, w, tau) + mode->c2 * sinh_share(k, w, x);
+        *phi += mode->c2 * cosh_share(k, w, x) - mode->c1 * cosh_share(k, w, tau);
+        break;
+    case PPS_MODE_RESONANT:
+    case PPS_MODE_NORMAL: {
+        pps_mode_depth at = pps_mode_at(mode, tau);
+        *psi += mode->c1 * at.ekt + mode->c2 * at.ekx;
+        *phi += k * (mode->c1 * at.ekt - mode->c2 * at.ekx);
+        break;
+    }
+    }
+}
+
+void pps_ray_init(pps_ray *ray, double w, double q, double tau, double mu) {
+    double x = w - tau, c = 1 / fabs(mu);
+    *ray = (pps_ray){.tau = tau,
+                     .x = x,
+                     .c = c,
+                     .ect = exp(-c * tau),
+                     .ecx = exp(-c * x),
+                     .eqt = exp(-q * tau),
+                     .down = mu > 0};
+    ray->beam = c * (ray->down ? pps_exp1(tau, q, c) : ray->eqt * pps_exp1(x, 0, q + c));
+}
+
+pps_mode_depth pps_mode_at(const pps_mode *mode, double tau) {
+    double x = mode->w - tau;
+    return (pps_mode_depth){exp(-mode->k * tau), isinf(x) ? 0 : exp(-mode->k * x)};
+}
+
+/* E1(t; 0, a) where eat = e^(-a t) is at hand. */
+static double decay_known(double t, double a, double eat) {
+    return a * t > 0.5 ? (1 - eat) / a : -expm1(-a * t) / a;
+}
+
+/* The ray integrals of e^(-k t) and of e^(-k (w - t)): what decays away from the edge
+ * where the ray enters, and what grows. */
+static void ray_exponentials(const pps_mode *mode, const pps_ray *ray,
+                             const pps_mode_depth *at, double *from_top,
+                             double *from_bottom) {
+    double k = mode->k, c = ray->c;
+    if (ray->down) {
+        *from_top = c * pps_exp1_known(ray->tau, k, c, at->ekt, ray->ect);
+        *from_bottom =
+            c * at->ekx * decay_known(ray->tau, k + c, at->ekt * ray->ect);
+    } else {
+        *from_top = c * at->ekt * decay_known(ray->x, k + c, at->ekx * ray->ecx);
+        *from_bottom =
+            mode->c2 != 0 ? c * pps_exp1_known(ray->x, k, c, at->ekx, ray->ecx) : 0;
+    }
+}
+
+/* The ray integral of Theta. */
+static double ray_theta(const pps_mode *mode, const pps_ray *ray) {
+    double k = mode->k, q = mode->q, c = ray->c;
+    if (ray->down) {
+        return c * pps_exp2(ray->tau, k, q, c);
+    }
+    return c * (pps_exp1(ray->tau, k, q) * pps_exp1(ray->x, 0, k + c) +
+                ray->eqt * pps_exp2(ray->x, 0, k + c, q + c));
+}
+
+/* The ray integrals of sinh(k t')/sinh(k w) and k cosh(k t')/sinh(k w), where t' is
+ * measured from the edge where the ray enters (near) and from the other one (far);
+ * `run` is the way to the near edge, `rest` to the far one. */
+typedef struct {
+    double sinh_near, cosh_near, sinh_far, cosh_far;
+} hyperbolic;
+static hyperbolic ray_hyperbolic(double k, double w, double c, double run, double rest) {
+    double scale = c / pps_exp1(w, 0, 2 * k);
+    double near = exp(-k * rest), far = exp(-k * run);
+    double grow = pps_exp1(run, 0, k + c), fall = pps_exp1(run, k, c);
+    return (hyperbolic){
+        .sinh_near = scale * near * pps_exp2(run, 0, 2 * k, c + k),
+        .cosh_near = scale / 2 * (near * grow + near * far * fall),
+        .sinh_far = scale * (pps_exp1(rest, 0, 2 * k) * fall +
+                             near * near * pps_exp2(run, k, c, c + 2 * k)),
+        .cosh_far = scale / 2 * (fall + near * near * far * grow),
+    };
+}
+
+/* A thin slab, downward: from the state at tau = 0. Upward: from the state at tau, with
+ * the kernel e^(-c s) over 0 < s < x. */
+static void ray_thin(const pps_mode *mode, const pps_ray *ray, double *psi,
+                     double *phi) {
+    double k = mode->k, q = mode->q, c = ray->c, beam = 1;
+    double psi0 = mode->c1, phi0 = mode->c2;
+    double ch, sh, beam_sh; /* integrals of cosh(k s), sinh(k s)/k and Sh(s) */
+    if (ray->down) {
+        double t = ray->tau;
+        ch = c / 2 * (pps_exp1(t, -k, c) + pps_exp1(t, k, c));
+        sh = c * pps_exp2(t, -k, k, c);
+        beam_sh = c * pps_exp3(t, -k, k, q, c);
+    } else {
+        double x = ray->x;
+        ch = c / 2 * (pps_exp1(x, 0, c - k) + pps_exp1(x, 0, c + k));
+        sh = c * pps_exp2(x, 0, c - k, c + k);
+        beam_sh = c * pps_exp3(x, 0, c - k, c + k, c + q);
+        beam = ray->eqt;
+        pps_mode_state(mode, ray->tau, &psi0, &phi0);
+    }
+    double beam_c = sh - q * beam_sh;
+    *psi = ch * psi0 - sh * phi0 + beam * (mode->beta * beam_c - mode->alpha * beam_sh);
+    *phi = ch * phi0 - k * k * sh * psi0 +
+           beam * (mode->alpha * beam_c - mode->beta * k * k * beam_sh);
+}
+
+void pps_mode_ray(const pps_mode *mode, const pps_ray *ray, const pps_mode_depth *at,
+                  double *psi, double *phi) {
+    double k = mode->k, p = mode->p, top, bottom;
+    switch (mode->kind) {
+    case PPS_MODE_THIN:
+        ray_thin(mode, ray, psi, phi);
+        return;
+    case PPS_MODE_SMALL: {
+        bool down = ray->down;
+        hyperbolic h = ray_hyperbolic(k, mode->w, ray->c, down ? ray->tau : ray->x,
+                                      down ? ray->x : ray->tau);
+        double sinh_up = down ? h.sinh_near : h.sinh_far; /* 0 at the top */
+        double sinh_dn = down ? h.sinh_far : h.sinh_near; /* 0 at the bottom */
+        double cosh_up = down ? h.cosh_near : h.cosh_far;
+        double cosh_dn = down ? h.cosh_far : h.cosh_near;
+        *psi = mode->c1 * sinh_up + mode->c2 * sinh_dn + p * ray->beam;
+        *phi = mode->c2 * cosh_dn - mode->c1 * cosh_up +
+               (mode->beta + mode->q * p) * ray->beam;
+        return;
+    }
+    case PPS_MODE_RESONANT: {
+        double theta = ray_theta(mode, ray);
+        ray_exponentials(mode, ray, at, &top, &bottom);
+        *psi = mode->c1 * top + mode->c2 * bottom + p * theta;
+        *phi = k * (mode->c1 * top - mode->c2 * bottom) + k * p * theta +
+               (mode->beta - p) * ray->beam;
+        return;
+    }
+    case PPS_MODE_NORMAL:
+        ray_exponentials(mode, ray, at, &top, &bottom);
+        *psi = mode->c1 * top + mode->c2 * bottom + p * ray->beam;
+        *phi = k * (mode->c1 * top - mode->c2 * bottom) +
+               (mode->beta + mode->q * p) * ray->beam;
+        return;
+    }
+}

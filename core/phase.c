@@ -1,0 +1,103 @@
+/* The Henyey-Greenstein phase function and its integrals.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include <ppscat/phase.h>
+
+#include "core/gsl.h"
+
+static const double PI = 3.14159265358979323846;
+
+double pps_hg(double g, double cos_theta) {
+    /* (1 - g)^2 + 2 g (1 - x) keeps its digits near the peaks, where 1 + g^2 - 2 g x
+     * would cancel. */
+    double base = g >= 0 ? (1 - g) * (1 - g) + 2 * g * (1 - cos_theta)
+                         : (1 + g) * (1 + g) - 2 * g * (1 + cos_theta);
+    return (1 - g) * (1 + g) / (4 * PI * base * sqrt(base));
+}
+
+double pps_cos_degrees(double angle) {
+    double turn = fabs(remainder(angle, 360));
+    if (turn == 60 || turn == 120) {
+        return turn == 60 ? 0.5 : -0.5;
+    }
+    return turn <= 45    ? cos(turn * (PI / 180))
+           : turn <= 135 ? sin((90 - turn) * (PI / 180))
+                         : -cos((180 - turn) * (PI / 180));
+}
+
+double pps_cos_scattering(double mu0, double mu, double phi) {
+    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu));
+    return fmax(-1, fmin(1, mu0 * mu + sines * pps_cos_degrees(phi)));
+}
+
+/* integral over phi of (a - b cos phi)^(-3/2) is 4 E(2b/(a+b)) / ((a - b) sqrt(a + b)). */
+double pps_hg_azimuth_mean(double g, double mu, double mu0) {
+    if (g < 0) { /* p(-g; mu) = p(g; -mu): work with the forward peak */
+        g = -g;
+        mu = -mu;
+    }
+    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu));
+    double b = 2 * g * sines;
+    /* a - b = (1-g)^2 + 2 g (1 - cos(theta - theta0)), the difference of angles taken
+     * without cancellation: 1 - cos = 2 sin^2(half), sin^2(half) from the chord. */
+    double sine = sqrt((1 - mu) * (1 + mu)), sine0 = sqrt((1 - mu0) * (1 + mu0));
+    double chord2 = (mu - mu0) * (mu - mu0) + (sine - sine0) * (sine - sine0);
+    double a_minus_b = (1 - g) * (1 - g) + g * chord2;
+    double a_plus_b = a_minus_b + 2 * b;
+    double e = pps_elliptic_e(fmin(1, 2 * b / a_plus_b));
+    return (1 - g) * (1 + g) * e / (2 * PI * PI * a_minus_b * sqrt(a_plus_b));
+}
+
+/* integral over (0, pi/2) of du / ((p c^2 + q s^2) sqrt(a c^2 + b s^2)), c = cos u,
+ * s = sin u, by Carlson's forms with positive terms only. */
+static double elliptic_third(double p, double q, double a, double b) {
+    if (p < q) {
+        return elliptic_third(q, p, b, a); /* u -> pi/2 - u */
+    }
+    double y = b / a;
+    return (pps_carlson_f(y) + (p - q) / (3 * p) * pps_carlson_j(y, q / p)) /
+           (p * sqrt(a));
+}
+
+/* R - 1/2 = -sum over odd l of (2l+1)/2 g^l P_l(mu0) int_0^1 P_l; for small |g|. */
+static double backward_series(double g, double mu0) {
+    double sum = 0, power = g, half_moment = 0.5; /* int_0^1 P_1 = 1/2 */
+    double before = 1, here = mu0;                /* P_0, P_1 */
+    for (int l = 1; l < 120; l += 2) {
+        sum += (2 * l + 1) * 0.5 * power * here * half_moment;
+        double even = ((2 * l + 1) * mu0 * here - l * before) / (l + 1);
+        double odd = ((2 * l + 3) * mu0 * even - (l + 1) * here) / (l + 2);
+        before = even;
+        here = odd;
+        power *= g * g;
+        half_moment *= -(double)l / (l + 3); /* int P_(l+2) / int P_l */
+    }
+    return 0.5 - sum;
+}
+
+/* The scattered directions are summed over cones of angle Theta about the beam; with the
+ * antiderivative of p in cos Theta, integration by parts leaves, for g > 0,
+ *   R = (1 - g)/(2 g) [ (1 + g)/pi I - 1 ],
+ *   I = int_(-pi/2)^(pi/2) mu0 dt / ((1 - s^2 sin^2 t) sqrt(1 + g^2 - 2 g s sin t)),
+ * s = sqrt(1 - mu0^2), which is two complete elliptic integrals of the third kind. */
+static double backward_elliptic(double g, double mu0) {
+    double s = sqrt((1 - mu0) * (1 + mu0));
+    double one_minus_s = mu0 * mu0 / (1 + s);
+    double a = (1 - g) * (1 - g) + 2 * g * one_minus_s; /* 1 + g^2 - 2 g s */
+    double b = (1 + g) * (1 + g) - 2 * g * one_minus_s; /* 1 + g^2 + 2 g s */
+    double integral = mu0 * (elliptic_third(one_minus_s, 1 + s, a, b) +
+                             elliptic_third(1 + s, one_minus_s, a, b));
+    return (1 - g) / (2 * g) * ((1 + g) / PI * integral - 1);
+}
+
+double pps_hg_backward(double g, double mu0) {
+    if (mu0 == 0) {
+        return 0.5;
+    }
+    if (fabs(g) < 0.6) {
+        return backward_series(g, mu0);
+    }
+    return g > 0 ? backward_elliptic(g, mu0) : 1 - backward_elliptic(-g, mu0);
+}

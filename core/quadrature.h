@@ -1,0 +1,14 @@
+/* Nodes and weights of a hemisphere.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_CORE_QUADRATURE_H
+#define PPS_CORE_QUADRATURE_H
+
+#include <ppscat/dom.h>
+
+/* n nodes (ascending) and weights on (0, 1), weights summing to 1. kind is GAUSS or
+ * MAPPED: mu = x^2 with weights 2 x w_x, which resolves the mu log mu behaviour at
+ * grazing angles and mu ~ thickness in thin slabs. */
+pps_status pps_hemisphere_nodes(pps_nodes kind, int n, double *mu, double *weight);
+
+#endif

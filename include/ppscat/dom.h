@@ -1,0 +1,101 @@
+/* Discrete ordinates: the full plane-parallel model (SPP Eq. 7) on one set of nodes.
+ *
+ * Expensive once: `create` solves the eigenproblems of every azimuthal order.
+ * Cheap often: a new thickness costs two Cholesky factorisations an order, a new beam
+ * a few triangular solves, an output point a sum over modes.
+ *
+ *     pps_dom *dom;
+ *     pps_dom_create(&slab, &(pps_dom_opts){.streams = 32}, &dom);
+ *     pps_dom_solve(dom, mu0);
+ *     pps_dom_radiance(dom, &grid, radiance);
+ *     pps_dom_free(dom);
+ *
+ * For an answer good to a tolerance rather than to a number of streams, use the
+ * method "exact" (method.h), which chooses streams, nodes and orders itself.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_DOM_H
+#define PPSCAT_DOM_H
+
+#include <ppscat/slab.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Quadrature of a hemisphere, n = streams / 2 nodes. */
+typedef enum {
+    PPS_NODES_AUTO,  /* mapped for thin slabs or |g| <= 0.5, else Gauss */
+    PPS_NODES_GAUSS, /* Gauss-Legendre on (0, 1): "double Gauss" */
+    PPS_NODES_MAPPED /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
+} pps_nodes;
+
+/* Scaling of the forward peak (delta-M, Wiscombe 1977). */
+typedef enum {
+    PPS_DELTA_M_AUTO, /* on for g > 0 */
+    PPS_DELTA_M_ON,   /* refused for g < 0: there is no forward peak to remove */
+    PPS_DELTA_M_OFF   /* the plain discrete problem: moments g^l for l < streams, Gauss
+                         nodes, no single-scattering correction */
+} pps_delta_m;
+
+enum { PPS_STREAMS_MAX = 1024 };
+
+/* Zero means default throughout. */
+typedef struct pps_dom_opts {
+    int streams;         /* 2n, even, 2..PPS_STREAMS_MAX; 0 = 32 */
+    pps_nodes nodes;
+    pps_delta_m delta_m;
+    int orders;          /* azimuthal orders; 0 = enough for `tolerance`; 1 = fluxes only */
+    double tolerance;    /* of the azimuth series, relative; 0 = 1e-15 */
+} pps_dom_opts;
+
+/* What was used; the residuals a user may want to see. */
+typedef struct pps_dom_info {
+    int streams, orders, moments; /* moments of the phase function kept, l < moments */
+    pps_nodes nodes;              /* GAUSS or MAPPED */
+    double delta_fraction;        /* f of delta-M; 0 when not scaled */
+    double diffusion_exponent;    /* smallest eigenvalue k of m = 0 */
+} pps_dom_info;
+
+typedef struct pps_dom pps_dom;
+
+/* Build the solver of a slab.
+ *   slab    copied; opts may be NULL
+ *   out     the handle, NULL on failure; free with pps_dom_free
+ * Status: ARGUMENT, MEMORY, CONVERGENCE; INDEFINITE where the truncated phase function
+ * has no positive definite form on the nodes; UNSUPPORTED for delta-M with g < 0.
+ * Reference: docs/theory.md; SPP Eq. 7. */
+PPS_API pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts,
+                                  pps_dom **out);
+
+/* Change the thickness; keeps the eigenproblems. Call pps_dom_solve next. */
+PPS_API pps_status pps_dom_set_thickness(pps_dom *dom, double thickness);
+
+/* Solve for a beam of unit irradiance normal to itself, coming along mu0 in (0, 1]. */
+PPS_API pps_status pps_dom_solve(pps_dom *dom, double mu0);
+
+/* Diffuse radiance, 1/sr: radiance[(k * n_mu + j) * n_phi + i] at depth k, cosine j,
+ * azimuth i. mu need not be a node. Allocates its scratch. */
+PPS_API pps_status pps_dom_radiance(const pps_dom *dom, const pps_grid *at,
+                                    double *radiance);
+
+/* Fluxes and mean intensities at n depths: flux[k]. */
+PPS_API pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
+                                pps_flux *flux);
+
+/* The nodes (ascending) and weights of a hemisphere, streams / 2 of each. */
+PPS_API pps_status pps_dom_nodes(const pps_dom *dom, double *mu, double *weight);
+
+/* The eigenvalues k_j of order m, ascending, streams / 2 of them, in the scaled optical
+ * depth (see delta_fraction). ARGUMENT for an order that was not asked for. */
+PPS_API pps_status pps_dom_eigenvalues(const pps_dom *dom, int m, double *k);
+
+PPS_API void pps_dom_query(const pps_dom *dom, pps_dom_info *info);
+
+/* NULL is fine. */
+PPS_API void pps_dom_free(pps_dom *dom);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,276 @@
+/* Discrete ordinates: create, thickness, beam, fluxes. The eigenproblem is in modes.c,
+ * the boundary in boundary.c, the radiance in radiance.c.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/dom.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/quadrature.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Above this smallest node the eigenproblem may be squared: sqrt(eps) k_max stays well
+ * below the k that matter. */
+static const double SQUARED_NODE = 1e-3;
+
+static bool opts_valid(const pps_dom_opts *o) {
+    bool streams = o->streams == 0 || (o->streams >= 2 && o->streams % 2 == 0 &&
+                                       o->streams <= PPS_STREAMS_MAX);
+    bool enums = o->nodes >= PPS_NODES_AUTO && o->nodes <= PPS_NODES_MAPPED &&
+                 o->delta_m >= PPS_DELTA_M_AUTO && o->delta_m <= PPS_DELTA_M_OFF;
+    bool clash = o->delta_m == PPS_DELTA_M_OFF && o->nodes == PPS_NODES_MAPPED;
+    return streams && enums && !clash && o->orders >= 0 && o->tolerance >= 0 &&
+           o->tolerance < 1;
+}
+
+static pps_nodes choose_nodes(const pps_slab *slab, const pps_dom_opts *o) {
+    if (o->nodes != PPS_NODES_AUTO) {
+        return o->nodes;
+    }
+    if (o->delta_m == PPS_DELTA_M_OFF) {
+        return PPS_NODES_GAUSS;
+    }
+    bool grazing_matters = fabs(slab->g) <= 0.5 || slab->thickness < 1;
+    return grazing_matters ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
+}
+
+/* Moments l < L that the nodes carry: 2n on Gauss nodes, 3n/2 on mapped ones. */
+static int moments_for(pps_nodes nodes, int streams) {
+    int n_moments = nodes == PPS_NODES_GAUSS ? streams : streams * 3 / 4;
+    return n_moments > 2 ? n_moments : 2;
+}
+
+/* Orders m >= 1 enter by multiple scattering alone (single scattering is summed in
+ * closed form), so that order m is of the size of g^(2m). */
+static int orders_for(const pps_dom *dom, int asked) {
+    int most = dom->discrete.n_moments;
+    double g = fabs(dom->slab.g), needed = asked;
+    if (asked == 0) {
+        double digits = log(100 / dom->tolerance);
+        needed = g == 0 ? 1 : 4 + ceil(digits / (-2 * log(g)));
+    }
+    return needed < most ? (int)needed : most;
+}
+
+/* Delta-M: moments (g^l - f)/(1 - f) with f the first moment left out. */
+static void scale_peak(pps_dom *dom, bool scaled) {
+    pps_discrete *d = &dom->discrete;
+    double albedo = dom->slab.albedo, power = 1;
+    dom->f = scaled ? pow(dom->slab.g, d->n_moments) : 0;
+    dom->stretch = 1 - albedo * dom->f;
+    d->albedo = albedo * (1 - dom->f) / dom->stretch;
+    d->co_albedo = (1 - albedo) / dom->stretch;
+    for (int l = 0; l < d->n_moments; l++) {
+        d->strength[l] = (2 * l + 1) * (power - dom->f) / (1 - dom->f);
+        power *= dom->slab.g;
+    }
+}
+
+static pps_status discretise(pps_dom *dom, int streams, bool scaled) {
+    pps_discrete *d = &dom->discrete;
+    d->n = streams / 2;
+    d->n_moments = moments_for(dom->nodes, streams);
+    size_t n = (size_t)d->n;
+    d->mu = malloc((2 * n + (size_t)d->n_moments) * sizeof *d->mu);
+    if (!d->mu) {
+        return PPS_ERR_MEMORY;
+    }
+    d->weight = d->mu + n;
+    d->strength = d->weight + n;
+    pps_status status = pps_hemisphere_nodes(dom->nodes, d->n, d->mu, d->weight);
+    if (!status) {
+        d->squared = d->mu[0] > SQUARED_NODE;
+        scale_peak(dom, scaled);
+    }
+    return status;
+}
+
+static pps_status create_orders(pps_dom *dom, int wanted) {
+    dom->order = calloc((size_t)wanted, sizeof *dom->order);
+    dom->scratch = malloc(pps_order_scratch(&dom->discrete) * sizeof *dom->scratch);
+    if (!dom->order || !dom->scratch) {
+        return PPS_ERR_MEMORY;
+    }
+    for (int m = 0; m < wanted; m++) {
+        pps_status status = pps_order_create(&dom->order[m], &dom->discrete, m);
+        if (status) {
+            return status;
+        }
+        dom->n_orders++;
+    }
+    return pps_dom_set_thickness(dom, dom->slab.thickness);
+}
+
+pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts, pps_dom **out) {
+    static const pps_dom_opts defaults = {0};
+    const pps_dom_opts *o = opts ? opts : &defaults;
+    *out = NULL;
+    if (pps_slab_check(slab) || !opts_valid(o)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    if (o->delta_m == PPS_DELTA_M_ON && slab->g < 0) {
+        return PPS_ERR_UNSUPPORTED;
+    }
+    pps_dom *dom = calloc(1, sizeof *dom);
+    if (!dom) {
+        return PPS_ERR_MEMORY;
+    }
+    dom->slab = *slab;
+    dom->nodes = choose_nodes(slab, o);
+    dom->corrected = o->delta_m != PPS_DELTA_M_OFF;
+    dom->tolerance = o->tolerance > 0 ? o->tolerance : 1e-15;
+    pps_status status = discretise(dom, o->streams > 0 ? o->streams : 32,
+                                   dom->corrected && slab->g > 0);
+    if (!status) {
+        status = create_orders(dom, orders_for(dom, o->orders));
+    }
+    if (status) {
+        pps_dom_free(dom);
+        return status;
+    }
+    *out = dom;
+    return PPS_OK;
+}
+
+void pps_dom_free(pps_dom *dom) {
+    if (!dom) {
+        return;
+    }
+    for (int m = 0; m < dom->n_orders; m++) {
+        pps_order_free(&dom->order[m]);
+    }
+    free(dom->order);
+    free(dom->discrete.mu);
+    free(dom->scratch);
+    free(dom);
+}
+
+pps_status pps_dom_set_thickness(pps_dom *dom, double thickness) {
+    if (!(thickness > 0)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    dom->slab.thickness = thickness;
+    dom->mu0 = 0;
+    for (int m = 0; m < dom->n_orders; m++) {
+        pps_status status =
+            pps_order_set_thickness(&dom->order[m], thickness * dom->stretch);
+        if (status) {
+            return status;
+        }
+    }
+    return PPS_OK;
+}
+
+pps_status pps_dom_solve(pps_dom *dom, double mu0) {
+    if (pps_mu0_check(mu0)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    for (int m = 0; m < dom->n_orders; m++) {
+        pps_order_solve(&dom->order[m], &dom->discrete,
+                        dom->slab.thickness * dom->stretch, mu0, dom->scratch);
+    }
+    dom->mu0 = mu0;
+    return PPS_OK;
+}
+
+/* Sums over modes at one scaled depth: the hemispheric fluxes and the mean intensity. */
+typedef struct {
+    double even, odd; /* (down + up) and (down - up), over 2 */
+    double mean, size;
+} mode_sums;
+
+static mode_sums sum_modes(const pps_order *order, double tau) {
+    mode_sums sum = {0};
+    for (int j = 0; j < order->n; j++) {
+        double psi, phi;
+        pps_mode_state(&order->mode[j], tau, &psi, &phi);
+        /* V of l = 0 is the mean intensity, W of l = 1 the net flux of mode j. */
+        double even = PI * order->flux_s[j] * psi;
+        double odd = PI * order->w[(size_t)j * (size_t)order->n_odd] * phi;
+        sum.even += even;
+        sum.odd += odd;
+        sum.mean += order->v[(size_t)j * (size_t)order->n_even] * psi / 2;
+        sum.size += fabs(even) + fabs(odd);
+    }
+    return sum;
+}
+
+/* A hemispheric flux near the edge where it starts from 0, as the sum over nodes of
+ * radiances integrated along their rays: no cancellation, but n times the work. */
+static double flux_by_nodes(const pps_dom *dom, double tau, double sign) {
+    const pps_discrete *d = &dom->discrete;
+    double sum = 0;
+    for (int i = 0; i < d->n; i++) {
+        double radiance = pps_dom_mean_radiance(dom, tau, sign * d->mu[i]);
+        sum += d->weight[i] * d->mu[i] * radiance;
+    }
+    return 2 * PI * sum;
+}
+
+/* Below this share of its parts a flux is recomputed by flux_by_nodes. */
+static const double CANCELLED = 1e-3;
+
+static double flux_down(const pps_dom *dom, double tau, const mode_sums *sum) {
+    double flux = sum->even + sum->odd;
+    if (tau <= 0) {
+        return 0; /* nothing falls in */
+    }
+    return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, 1);
+}
+
+static double flux_up(const pps_dom *dom, double tau, const mode_sums *sum) {
+    double flux = sum->even - sum->odd;
+    if (tau >= dom->slab.thickness * dom->stretch) {
+        return 0; /* nothing comes up from below */
+    }
+    return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, -1);
+}
+
+pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
+                        pps_flux *flux) {
+    double mu0 = dom->mu0;
+    if (!(mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double scaled = tau[i] * dom->stretch, beam = exp(-tau[i] / mu0);
+        /* What delta-M left in the beam is diffuse light of the true problem. */
+        double peak = exp(-scaled / mu0) * -expm1(-(tau[i] - scaled) / mu0);
+        mode_sums sum = sum_modes(&dom->order[0], scaled);
+        flux[i].down = flux_down(dom, scaled, &sum) + mu0 * peak;
+        flux[i].up = flux_up(dom, scaled, &sum);
+        flux[i].direct = mu0 * beam;
+        flux[i].mean_diffuse = sum.mean + peak / (4 * PI);
+        flux[i].mean = flux[i].mean_diffuse + beam / (4 * PI);
+    }
+    return PPS_OK;
+}
+
+pps_status pps_dom_nodes(const pps_dom *dom, double *mu, double *weight) {
+    size_t bytes = (size_t)dom->discrete.n * sizeof *mu;
+    memcpy(mu, dom->discrete.mu, bytes);
+    memcpy(weight, dom->discrete.weight, bytes);
+    return PPS_OK;
+}
+
+pps_status pps_dom_eigenvalues(const pps_dom *dom, int m, double *k) {
+    if (m < 0 || m >= dom->n_orders) {
+        return PPS_ERR_ARGUMENT;
+    }
+    memcpy(k, dom->order[m].k, (size_t)dom->discrete.n * sizeof *k);
+    return PPS_OK;
+}
+
+void pps_dom_query(const pps_dom *dom, pps_dom_info *info) {
+    *info = (pps_dom_info){
+        .streams = 2 * dom->discrete.n,
+        .orders = dom->n_orders,
+        .moments = dom->discrete.n_moments,
+        .nodes = dom->nodes,
+        .delta_fraction = dom->f,
+        .diffusion_exponent = dom->order[0].k[0] * dom->stretch,
+    };
+}

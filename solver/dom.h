@@ -1,0 +1,34 @@
+/* The solver's handle, seen by its own files only.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_SOLVER_DOM_H
+#define PPS_SOLVER_DOM_H
+
+#include <ppscat/dom.h>
+
+#include "solver/order.h"
+
+struct pps_dom {
+    pps_slab slab; /* as given */
+    pps_nodes nodes;
+    bool corrected; /* single scattering with the exact phase function */
+    double tolerance;
+    pps_discrete discrete;
+    double f;               /* truncated fraction of delta-M; 0 without */
+    double stretch;         /* scaled optical depth / true: 1 - albedo f */
+    double mu0;             /* 0 until solved */
+    int n_orders;
+    pps_order *order;
+    double *scratch;        /* of pps_order_solve */
+};
+
+/* pps_dom_radiance, and how much the last two azimuthal orders still added, relative to
+ * each value; 0 when the series was not cut. */
+pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
+                                 double *radiance, double *rest);
+
+/* Azimuthal mean of the radiance of the discrete problem (its own single scattering
+ * included), at a scaled depth. */
+double pps_dom_mean_radiance(const pps_dom *dom, double tau, double mu);
+
+#endif

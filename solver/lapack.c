@@ -1,0 +1,115 @@
+/* LAPACKE behind one file.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/lapack.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cblas.h>
+#include <lapacke.h>
+
+size_t pps_lapack_work(int n) {
+    size_t m = (size_t)n;
+    /* dsyevd: 1 + 6n + 2n^2 and 3 + 5n integers; dgesvd: 5n and more to run blocked. */
+    return 3 * m * m + 64 * m + 256;
+}
+
+static void clear_upper(int n, double *a) {
+    for (int j = 1; j < n; j++) {
+        memset(a + (size_t)j * (size_t)n, 0, (size_t)j * sizeof *a);
+    }
+}
+
+bool pps_cholesky(int n, double *a) {
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a, n)) {
+        return false;
+    }
+    clear_upper(n, a);
+    return true;
+}
+
+void pps_cholesky_solve(int n, const double *factor, int n_rhs, double *b) {
+    pps_lower_solve(n, factor, false, n_rhs, b);
+    pps_lower_solve(n, factor, true, n_rhs, b);
+}
+
+void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs, double *b) {
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower,
+                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1, lower,
+                n, b, n);
+}
+
+void pps_lower_times(int n, const double *lower, bool transposed, int n_rhs, double *b) {
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower,
+                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1, lower,
+                n, b, n);
+}
+
+void pps_qr_r(int n, double *a, double *work) {
+    LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, n, n, a, n, work, work + n,
+                        (int)pps_lapack_work(n) - n);
+    for (int j = 0; j < n; j++) {
+        for (int i = j + 1; i < n; i++) {
+            a[i + j * n] = 0;
+        }
+    }
+}
+
+void pps_multiply(bool transposed, int n, int cols, int r, const double *a, int lda,
+                  const double *b, int ldb, double *c, int ldc) {
+    cblas_dgemm(CblasColMajor, transposed ? CblasTrans : CblasNoTrans, CblasNoTrans, n,
+                cols, r, 1, a, lda, b, ldb, 0, c, ldc);
+}
+
+/* B^T B = Y K^2 Y^T. */
+static pps_status squared_problem(int n, double *b, double *k, double *y,
+                                  double *work) {
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, n, 1, b, n, 0, y, n);
+    int *iwork = (int *)(void *)b; /* b has served; 3 + 5n integers need n >= 3 */
+    int liwork = (int)((size_t)n * (size_t)n * sizeof *b / sizeof *iwork);
+    if (liwork < 3 + 5 * n) {
+        int small[32];
+        if (LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', n, y, n, k, work,
+                                (int)pps_lapack_work(n), small, 32)) {
+            return PPS_ERR_CONVERGENCE;
+        }
+    } else if (LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', n, y, n, k, work,
+                                   (int)pps_lapack_work(n), iwork, liwork)) {
+        return PPS_ERR_CONVERGENCE;
+    }
+    for (int j = 0; j < n; j++) {
+        k[j] = sqrt(fmax(k[j], 0));
+    }
+    return PPS_OK;
+}
+
+pps_status pps_right_singular(int n, bool squared, double *b, double *k, double *y,
+                              double *work) {
+    if (squared) {
+        return squared_problem(n, b, k, y, work);
+    }
+    /* dgesvd, not dgesdd: its implicit zero-shift QR keeps the small singular values of
+     * a graded matrix, where divide and conquer keeps only eps times the largest. */
+    double dummy;
+    if (LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'A', n, n, b, n, k, &dummy, 1, y, n,
+                            work, (int)pps_lapack_work(n))) {
+        return PPS_ERR_CONVERGENCE;
+    }
+    /* y holds Y^T, k descends: transpose and reverse. */
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < i; j++) {
+            double swap = y[i + j * n];
+            y[i + j * n] = y[j + i * n];
+            y[j + i * n] = swap;
+        }
+    }
+    for (int j = 0; j < n / 2; j++) {
+        int r = n - 1 - j;
+        double swap = k[j];
+        k[j] = k[r];
+        k[r] = swap;
+        cblas_dswap(n, y + (size_t)j * (size_t)n, 1, y + (size_t)r * (size_t)n, 1);
+    }
+    return PPS_OK;
+}

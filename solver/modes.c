@@ -1,0 +1,337 @@
+/* The eigen solution of one azimuthal order, symmetric and split by parity.
+ *
+ * With S = I(+mu) + I(-mu), D = I(+mu) - I(-mu), s = sqrt(w mu) S, d = sqrt(w mu) D:
+ *     d' = -E s + ...,  s' = -F d + ...,  E = M (1 - Ce) M,  F = M (1 - Co) M.
+ *   1 - Co = L1 L1^T, so F = L L^T with L = M L1
+ *   1 - Ce = R^T R
+ *   B = R M L = U K Y^T; X = L Y, Z = L^-T Y; X^T Z = 1
+ * Neither matrix is ever squared on graded nodes: B keeps the digits of the small k.
+ *
+ * Both factorisations must succeed. That they do not is the honest sign that the
+ * truncated phase function is indefinite on these nodes.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/legendre.h"
+#include "solver/lapack.h"
+#include "solver/order.h"
+
+/* Scratch of one eigenproblem. */
+typedef struct {
+    double *p;      /* p_l of the nodes: p[i + (l - m) * n] */
+    double *lower;  /* L1 */
+    double *root;   /* R; for m = 0 first the Cholesky factor of N */
+    double *b, *y;  /* B and Y; b is scratch afterwards */
+    double *work;   /* of LAPACK */
+    double *vector; /* 3 n: sqrt(w), Householder vector, iteration vector */
+    double *memory;
+} eigen_scratch;
+
+static pps_status scratch_alloc(eigen_scratch *s, int n, int n_columns) {
+    size_t nn = (size_t)n * (size_t)n, np = (size_t)n * (size_t)n_columns;
+    s->memory = malloc((np + 4 * nn + pps_lapack_work(n) + 3 * (size_t)n) *
+                       sizeof *s->memory);
+    if (!s->memory) {
+        return PPS_ERR_MEMORY;
+    }
+    s->p = s->memory;
+    s->lower = s->p + np;
+    s->root = s->lower + nn;
+    s->b = s->root + nn;
+    s->y = s->b + nn;
+    s->work = s->y + nn;
+    s->vector = s->work + pps_lapack_work(n);
+    return PPS_OK;
+}
+
+/* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l; row is n_columns of scratch. */
+static void node_functions(const pps_discrete *d, int m, double *p, double *row) {
+    for (int i = 0; i < d->n; i++) {
+        pps_legendre(m, d->n_moments, d->mu[i], row);
+        for (int c = 0; c < d->n_moments - m; c++) {
+            p[i + c * d->n] = sqrt(d->weight[i]) * row[c];
+        }
+    }
+}
+
+/* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
+ * triangle, from row and column `skip` on. */
+static void one_minus_scattering(const pps_discrete *d, int m, int first, int skip,
+                                 const double *p, double *a) {
+    int n = d->n;
+    for (int j = skip; j < n; j++) {
+        for (int i = j; i < n; i++) {
+            a[i + j * n] = i == j;
+        }
+    }
+    for (int l = first; l < d->n_moments; l += 2) {
+        const double *pl = p + (size_t)(l - m) * (size_t)n;
+        double factor = d->albedo * d->strength[l];
+        for (int j = skip; j < n; j++) {
+            double scaled = factor * pl[j];
+            for (int i = j; i < n; i++) {
+                a[i + j * n] -= scaled * pl[i];
+            }
+        }
+    }
+}
+
+/* v <- H v, H = 1 - 2 h h^T with |h| = 1. */
+static void reflect(int n, const double *h, double *v) {
+    double dot = 0;
+    for (int i = 0; i < n; i++) {
+        dot += h[i] * v[i];
+    }
+    for (int i = 0; i < n; i++) {
+        v[i] -= 2 * dot * h[i];
+    }
+}
+
+/* m = 0: sqrt(w) is an eigenvector of Ce with eigenvalue `albedo` exactly, as the even
+ * P_l are orthogonal to 1 on a hemisphere. H, which takes sqrt(w) to -e1, turns 1 - Ce
+ * into diag(1 - albedo, N); both are set so, and the small eigenvalue keeps its digits up
+ * to albedo 1. N = C C^T is left in root, rows and columns 1.. .*/
+static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
+    int n = d->n;
+    double *h = s->vector + n, norm = 0;
+    for (int i = 0; i < n; i++) {
+        h[i] = sqrt(d->weight[i]) + (i == 0);
+        norm += h[i] * h[i];
+    }
+    for (int i = 0; i < n; i++) {
+        h[i] /= sqrt(norm);
+    }
+    for (int l = 2; l < d->n_moments; l += 2) {
+        reflect(n, h, s->p + (size_t)l * (size_t)n);
+    }
+    memset(s->root, 0, (size_t)n * (size_t)n * sizeof *s->root);
+    one_minus_scattering(d, 0, 2, 1, s->p, s->root);
+    /* Close the block up to (n-1) x (n-1) for the factorisation, and open it again. */
+    int r = n - 1;
+    for (int j = 0; j < r; j++) {
+        memmove(s->b + j * r, s->root + 1 + (j + 1) * n, (size_t)r * sizeof *s->b);
+    }
+    if (r > 0 && !pps_cholesky(r, s->b)) {
+        return false;
+    }
+    for (int j = 0; j < r; j++) {
+        memcpy(s->root + 1 + (j + 1) * n, s->b + j * r, (size_t)r * sizeof *s->b);
+    }
+    return true;
+}
+
+/* B = R diag(1/mu) L1. For m = 0, R = diag(sqrt(1 - albedo), C^T) H made triangular by
+ * an orthogonal factor from the left, which leaves K and Y alone; so that B is graded
+ * from large to small like the nodes. */
+static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
+    int n = d->n;
+    double *r = s->b;
+    memset(r, 0, (size_t)n * (size_t)n * sizeof *r);
+    for (int j = 0; j < n; j++) { /* R = root^T */
+        for (int i = j; i < n; i++) {
+            r[j + i * n] = s->root[i + j * n];
+        }
+    }
+    if (m == 0) {
+        const double *h = s->vector + n;
+        r[0] = sqrt(d->co_albedo);
+        for (int i = 0; i < n; i++) { /* rows of R <- rows times H */
+            double dot = 0;
+            for (int j = 0; j < n; j++) {
+                dot += r[i + j * n] * h[j];
+            }
+            for (int j = 0; j < n; j++) {
+                r[i + j * n] -= 2 * dot * h[j];
+            }
+        }
+        pps_qr_r(n, r, s->work);
+    }
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i <= j; i++) {
+            r[i + j * n] /= d->mu[j];
+        }
+    }
+    pps_multiply(false, n, n, n, r, n, s->lower, n, s->y, n);
+    memcpy(s->b, s->y, (size_t)n * (size_t)n * sizeof *s->b);
+}
+
+/* y <- (1 - albedo) (B^T B)^-1 y = L1^-1 mu H diag(1, (1 - albedo) N^-1) H mu L1^-T y,
+ * finite at albedo 1, where k = 0. */
+static void inverse_step(const pps_discrete *d, const eigen_scratch *s, double *y) {
+    int n = d->n;
+    const double *h = s->vector + n;
+    pps_lower_solve(n, s->lower, true, 1, y);
+    for (int i = 0; i < n; i++) {
+        y[i] *= d->mu[i];
+    }
+    reflect(n, h, y);
+    /* root holds C in rows and columns 1..; a unit entry at (0, 0) leaves y[0] alone. */
+    pps_lower_solve(n, s->root, false, 1, y);
+    pps_lower_solve(n, s->root, true, 1, y);
+    for (int i = 1; i < n; i++) {
+        y[i] *= d->co_albedo;
+    }
+    reflect(n, h, y);
+    for (int i = 0; i < n; i++) {
+        y[i] *= d->mu[i];
+    }
+    pps_lower_solve(n, s->lower, false, 1, y);
+}
+
+/* The smallest k of m = 0 to full relative accuracy: two inverse iterations and a
+ * Rayleigh quotient through the exact factor. */
+static void refine_smallest(const pps_discrete *d, eigen_scratch *s, double *k) {
+    int n = d->n;
+    double *y = s->y, *image = s->vector + 2 * n;
+    s->root[0] = 1;
+    for (int step = 0; step < 3; step++) {
+        double norm = 0, quotient = 0;
+        memcpy(image, y, (size_t)n * sizeof *y);
+        inverse_step(d, s, image);
+        for (int i = 0; i < n; i++) {
+            quotient += y[i] * image[i];
+            norm += image[i] * image[i];
+        }
+        if (step == 2) {
+            k[0] = sqrt(d->co_albedo / quotient);
+            return;
+        }
+        for (int i = 0; i < n; i++) {
+            y[i] = image[i] / sqrt(norm);
+        }
+    }
+}
+
+/* X = M L1 Y, Z = M^-1 L1^-T Y, and from them what the solver keeps: G, V, W. */
+static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
+    int n = d->n, m = order->m;
+    double *ly = s->b, *z = s->lower; /* L1 Y; then L1^-T Y takes the place of L1 */
+    memcpy(ly, s->y, (size_t)n * (size_t)n * sizeof *ly);
+    pps_lower_times(n, s->lower, false, n, ly);
+    pps_lower_solve(n, s->lower, true, n, s->y);
+    z = s->y;
+    for (int j = 0; j < n; j++) {
+        double sum = 0;
+        for (int i = 0; i < n; i++) {
+            sum += sqrt(d->weight[i]) * ly[i + j * n]; /* sqrt(w mu) M = sqrt(w) */
+        }
+        order->flux_s[j] = sum;
+    }
+    /* V = (p_l / mu)^T L1 Y for l + m even; W = p_l^T L1^-T Y for odd. */
+    double *row = s->work;
+    node_functions(d, m, s->p, row);
+    int stride = 2 * n;
+    pps_multiply(true, order->n_odd, n, n, s->p + n, stride, z, n, order->w,
+                 order->n_odd > 0 ? order->n_odd : 1);
+    for (int r = 0; r < order->n_even; r++) {
+        for (int i = 0; i < n; i++) {
+            s->p[i + r * stride] /= d->mu[i];
+        }
+    }
+    pps_multiply(true, order->n_even, n, n, s->p, stride, ly, n, order->v,
+                 order->n_even);
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            ly[i + j * n] /= sqrt(d->mu[i]); /* X */
+        }
+    }
+    pps_multiply(true, n, n, n, ly, n, ly, n, order->gram, n);
+}
+
+static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
+    int rest = d->n_moments - m;
+    *order = (pps_order){.m = m, .n = d->n, .n_even = (rest + 1) / 2, .n_odd = rest / 2};
+    size_t n = (size_t)d->n, even = (size_t)order->n_even, odd = (size_t)order->n_odd;
+    order->memory = malloc((n * (2 + even + odd) + 3 * n * n) * sizeof *order->memory);
+    order->mode = calloc(n, sizeof *order->mode);
+    if (!order->memory || !order->mode) {
+        pps_order_free(order);
+        return PPS_ERR_MEMORY;
+    }
+    order->k = order->memory;
+    order->flux_s = order->k + n;
+    order->gram = order->flux_s + n;
+    order->even = order->gram + n * n;
+    order->odd = order->even + n * n;
+    order->v = order->odd + n * n;
+    order->w = order->v + even * n;
+    return PPS_OK;
+}
+
+void pps_order_free(pps_order *order) {
+    free(order->memory);
+    free(order->mode);
+    *order = (pps_order){0};
+}
+
+static pps_status solve_eigenproblem(pps_order *order, const pps_discrete *d,
+                                     eigen_scratch *s) {
+    int m = order->m, n = d->n;
+    node_functions(d, m, s->p, s->work);
+    one_minus_scattering(d, m, m + 1, 0, s->p, s->lower);
+    if (!pps_cholesky(n, s->lower)) {
+        return PPS_ERR_INDEFINITE;
+    }
+    if (m == 0) {
+        if (!factor_even_isotropic(d, s)) {
+            return PPS_ERR_INDEFINITE;
+        }
+    } else {
+        one_minus_scattering(d, m, m, 0, s->p, s->root);
+        if (!pps_cholesky(n, s->root)) {
+            return PPS_ERR_INDEFINITE;
+        }
+    }
+    build_b(d, m, s);
+    pps_status status = pps_right_singular(n, d->squared, s->b, order->k, s->y, s->work);
+    if (status) {
+        return status;
+    }
+    if (m == 0) {
+        refine_smallest(d, s, order->k);
+    }
+    finish(order, d, s);
+    return PPS_OK;
+}
+
+pps_status pps_order_create(pps_order *order, const pps_discrete *discrete, int m) {
+    pps_status status = order_alloc(order, discrete, m);
+    if (status) {
+        return status;
+    }
+    eigen_scratch scratch;
+    status = scratch_alloc(&scratch, discrete->n, discrete->n_moments - m);
+    if (!status) {
+        status = solve_eigenproblem(order, discrete, &scratch);
+        free(scratch.memory);
+    }
+    if (status) {
+        pps_order_free(order);
+    }
+    return status;
+}
+
+void pps_order_project(const pps_order *order, const pps_discrete *discrete, double mu,
+                       double *ge, double *go, double *legendre) {
+    int m = order->m, n = order->n;
+    pps_legendre(m, discrete->n_moments, fabs(mu), legendre);
+    for (int c = 0; c < discrete->n_moments - m; c++) {
+        legendre[c] *= discrete->albedo / 2 * discrete->strength[m + c];
+    }
+    for (int j = 0; j < n; j++) {
+        const double *v = order->v + (size_t)j * (size_t)order->n_even;
+        const double *w = order->w + (size_t)j * (size_t)order->n_odd;
+        double even = 0, odd = 0;
+        for (int r = 0; r < order->n_even; r++) {
+            even += legendre[2 * r] * v[r];
+        }
+        for (int r = 0; r < order->n_odd; r++) {
+            odd += legendre[2 * r + 1] * w[r];
+        }
+        ge[j] = even;
+        go[j] = odd;
+    }
+}
