@@ -1,4 +1,4 @@
-/* The one door to GSL: quadrature nodes, elliptic integrals, adaptive integration.
+/* The one door to GSL: elliptic integrals.
  *
  * GSL's default error handler aborts the process; everything here validates first or
  * uses the calls that return a status without the handler, so it cannot fire.
@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPS_CORE_GSL_H
 #define PPS_CORE_GSL_H
-
-#include <ppscat/status.h>
-
-/* Gauss-Legendre nodes (ascending) and weights on (0, 1), n >= 1. */
-pps_status pps_gauss_unit(int n, double *node, double *weight);
 
 /* Complete elliptic integral E(m), parameter m = k^2 in [0, 1]. */
 double pps_elliptic_e(double m);

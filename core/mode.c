@@ -15,7 +15,6 @@
 #include "core/mode.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 #include "core/expdiff.h"
 
@@ -220,33 +219,53 @@ static void ray_exponentials(const pps_mode *mode, const pps_ray *ray,
     }
 }
 
-/* The ray integral of Theta. */
-static double ray_theta(const pps_mode *mode, const pps_ray *ray) {
-    double k = mode->k, q = mode->q, c = ray->c;
+double pps_ray_exp(const pps_ray *ray, double k) {
+    double c = ray->c;
+    return ray->down ? c * pps_exp1(ray->tau, k, c)
+                     : c * exp(-k * ray->tau) * pps_exp1(ray->x, 0, k + c);
+}
+
+double pps_ray_theta(const pps_ray *ray, double k, double q) {
+    double c = ray->c;
     if (ray->down) {
         return c * pps_exp2(ray->tau, k, q, c);
     }
     return c * (pps_exp1(ray->tau, k, q) * pps_exp1(ray->x, 0, k + c) +
-                ray->eqt * pps_exp2(ray->x, 0, k + c, q + c));
+                exp(-q * ray->tau) * pps_exp2(ray->x, 0, k + c, q + c));
 }
 
-/* The ray integrals of sinh(k t')/sinh(k w) and k cosh(k t')/sinh(k w), where t' is
- * measured from the edge where the ray enters (near) and from the other one (far);
- * `run` is the way to the near edge, `rest` to the far one. */
-typedef struct {
-    double sinh_near, cosh_near, sinh_far, cosh_far;
-} hyperbolic;
-static hyperbolic ray_hyperbolic(double k, double w, double c, double run, double rest) {
-    double scale = c / pps_exp1(w, 0, 2 * k);
-    double near = exp(-k * rest), far = exp(-k * run);
-    double grow = pps_exp1(run, 0, k + c), fall = pps_exp1(run, k, c);
-    return (hyperbolic){
-        .sinh_near = scale * near * pps_exp2(run, 0, 2 * k, c + k),
-        .cosh_near = scale / 2 * (near * grow + near * far * fall),
-        .sinh_far = scale * (pps_exp1(rest, 0, 2 * k) * fall +
-                             near * near * pps_exp2(run, k, c, c + 2 * k)),
-        .cosh_far = scale / 2 * (fall + near * near * far * grow),
-    };
+/* sinh measured from the edge where the ray enters, `run` away; `rest` to the other. */
+static double sinh_near(double c, double k, double run, double rest) {
+    return c * exp(-k * rest) * pps_exp2(run, 0, 2 * k, c + k);
+}
+
+/* sinh measured from the edge that the ray runs towards. */
+static double sinh_far(double c, double k, double run, double rest) {
+    double near = exp(-k * rest);
+    return c * (pps_exp1(rest, 0, 2 * k) * pps_exp1(run, k, c) +
+                near * near * pps_exp2(run, k, c, c + 2 * k));
+}
+
+double pps_ray_sinh_top(const pps_ray *ray, double k) {
+    return ray->down ? sinh_near(ray->c, k, ray->tau, ray->x)
+                     : sinh_far(ray->c, k, ray->x, ray->tau);
+}
+
+double pps_ray_sinh_bottom(const pps_ray *ray, double k) {
+    return ray->down ? sinh_far(ray->c, k, ray->tau, ray->x)
+                     : sinh_near(ray->c, k, ray->x, ray->tau);
+}
+
+/* The ray integrals of k cosh(k t)/sinh(k w) and k cosh(k (w - t))/sinh(k w). */
+static void ray_cosh(const pps_ray *ray, double k, double w, double *top,
+                     double *bottom) {
+    double scale = ray->c / (2 * pps_exp1(w, 0, 2 * k));
+    double run = ray->down ? ray->tau : ray->x, rest = ray->down ? ray->x : ray->tau;
+    double grow = pps_exp1(run, 0, k + ray->c), fall = pps_exp1(run, k, ray->c);
+    double near = scale * (exp(-k * rest) * grow + exp(-k * w) * fall);
+    double far = scale * (fall + exp(-k * (w + rest)) * grow);
+    *top = ray->down ? near : far;
+    *bottom = ray->down ? far : near;
 }
 
 /* A thin slab, downward: from the state at tau = 0. Upward: from the state at tau, with
@@ -283,20 +302,17 @@ void pps_mode_ray(const pps_mode *mode, const pps_ray *ray, const pps_mode_depth
         ray_thin(mode, ray, psi, phi);
         return;
     case PPS_MODE_SMALL: {
-        bool down = ray->down;
-        hyperbolic h = ray_hyperbolic(k, mode->w, ray->c, down ? ray->tau : ray->x,
-                                      down ? ray->x : ray->tau);
-        double sinh_up = down ? h.sinh_near : h.sinh_far; /* 0 at the top */
-        double sinh_dn = down ? h.sinh_far : h.sinh_near; /* 0 at the bottom */
-        double cosh_up = down ? h.cosh_near : h.cosh_far;
-        double cosh_dn = down ? h.cosh_far : h.cosh_near;
-        *psi = mode->c1 * sinh_up + mode->c2 * sinh_dn + p * ray->beam;
-        *phi = mode->c2 * cosh_dn - mode->c1 * cosh_up +
+        double s = pps_exp1(mode->w, 0, 2 * k);
+        ray_cosh(ray, k, mode->w, &top, &bottom);
+        *psi = (mode->c1 * pps_ray_sinh_top(ray, k) +
+                mode->c2 * pps_ray_sinh_bottom(ray, k)) / s +
+               p * ray->beam;
+        *phi = mode->c2 * bottom - mode->c1 * top +
                (mode->beta + mode->q * p) * ray->beam;
         return;
     }
     case PPS_MODE_RESONANT: {
-        double theta = ray_theta(mode, ray);
+        double theta = pps_ray_theta(ray, k, mode->q);
         ray_exponentials(mode, ray, at, &top, &bottom);
         *psi = mode->c1 * top + mode->c2 * bottom + p * theta;
         *phi = k * (mode->c1 * top - mode->c2 * bottom) + k * p * theta +

@@ -68,6 +68,16 @@ typedef struct pps_ray {
 } pps_ray;
 void pps_ray_init(pps_ray *ray, double w, double q, double tau, double mu);
 
+/* Ray integrals of the functions that solutions are made of:
+ *   e^(-k t), Theta(t) = E1(t; k, q), and with s(t) = E1(t; 0, 2k) = (1 - e^(-2kt))/(2k)
+ *   from_top:    e^(-k w) sinh(k t)/k       = e^(-k (w - t)) s(t)
+ *   from_bottom: e^(-k w) sinh(k (w - t))/k = e^(-k t) s(w - t)
+ * All positive, smooth at k = 0; w may be infinite when k > 0. */
+double pps_ray_exp(const pps_ray *ray, double k);
+double pps_ray_theta(const pps_ray *ray, double k, double q);
+double pps_ray_sinh_top(const pps_ray *ray, double k);
+double pps_ray_sinh_bottom(const pps_ray *ray, double k);
+
 /* e^(-k tau) and e^(-k (w - tau)), shared by all rays through a depth. */
 typedef struct pps_mode_depth {
     double ekt, ekx;

@@ -6,9 +6,13 @@
 
 #include <ppscat/dom.h>
 
+/* Gauss-Legendre nodes (ascending) and weights on (0, 1), n >= 1, to full relative
+ * accuracy each. */
+void pps_gauss_unit(int n, double *node, double *weight);
+
 /* n nodes (ascending) and weights on (0, 1), weights summing to 1. kind is GAUSS or
  * MAPPED: mu = x^2 with weights 2 x w_x, which resolves the mu log mu behaviour at
  * grazing angles and mu ~ thickness in thin slabs. */
-pps_status pps_hemisphere_nodes(pps_nodes kind, int n, double *mu, double *weight);
+void pps_hemisphere_nodes(pps_nodes kind, int n, double *mu, double *weight);
 
 #endif

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/hemisphere.h"
+#include "core/legendre.h"
 #include "core/quadrature.h"
 
 static const double PI = 3.14159265358979323846;
@@ -26,21 +28,19 @@ static bool opts_valid(const pps_dom_opts *o) {
            o->tolerance < 1;
 }
 
-static pps_nodes choose_nodes(const pps_slab *slab, const pps_dom_opts *o) {
-    if (o->nodes != PPS_NODES_AUTO) {
-        return o->nodes;
-    }
-    if (o->delta_m == PPS_DELTA_M_OFF) {
-        return PPS_NODES_GAUSS;
-    }
-    bool grazing_matters = fabs(slab->g) <= 0.5 || slab->thickness < 1;
-    return grazing_matters ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
+/* Moments l < L that the nodes carry: 2n on Gauss nodes, 7n/4 on mapped ones, where the
+ * Legendre functions lose their orthogonality beyond. */
+static int moments_for(pps_nodes nodes, int streams) {
+    int n_moments = nodes == PPS_NODES_GAUSS ? streams : streams * 7 / 8;
+    return n_moments > 2 ? n_moments : 2;
 }
 
-/* Moments l < L that the nodes carry: 2n on Gauss nodes, 3n/2 on mapped ones. */
-static int moments_for(pps_nodes nodes, int streams) {
-    int n_moments = nodes == PPS_NODES_GAUSS ? streams : streams * 3 / 4;
-    return n_moments > 2 ? n_moments : 2;
+pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
+    /* Mapped nodes converge exponentially and see grazing directions, but carry fewer
+     * moments: they win in thin slabs, and wherever these resolve the phase function. */
+    double left_out = pow(fabs(slab->g), moments_for(PPS_NODES_MAPPED, streams));
+    bool mapped = slab->thickness < 1 || fabs(slab->g) <= 0.5 || left_out < 1e-7;
+    return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
 }
 
 /* Orders m >= 1 enter by multiple scattering alone (single scattering is summed in
@@ -80,12 +80,10 @@ static pps_status discretise(pps_dom *dom, int streams, bool scaled) {
     }
     d->weight = d->mu + n;
     d->strength = d->weight + n;
-    pps_status status = pps_hemisphere_nodes(dom->nodes, d->n, d->mu, d->weight);
-    if (!status) {
-        d->squared = d->mu[0] > SQUARED_NODE;
-        scale_peak(dom, scaled);
-    }
-    return status;
+    pps_hemisphere_nodes(dom->nodes, d->n, d->mu, d->weight);
+    d->squared = d->mu[0] > SQUARED_NODE;
+    scale_peak(dom, scaled);
+    return PPS_OK;
 }
 
 static pps_status create_orders(pps_dom *dom, int wanted) {
@@ -119,11 +117,15 @@ pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts, pps_do
         return PPS_ERR_MEMORY;
     }
     dom->slab = *slab;
-    dom->nodes = choose_nodes(slab, o);
     dom->corrected = o->delta_m != PPS_DELTA_M_OFF;
     dom->tolerance = o->tolerance > 0 ? o->tolerance : 1e-15;
-    pps_status status = discretise(dom, o->streams > 0 ? o->streams : 32,
-                                   dom->corrected && slab->g > 0);
+    int streams = o->streams > 0 ? o->streams : 32;
+    dom->nodes = o->nodes;
+    if (o->nodes == PPS_NODES_AUTO) {
+        dom->nodes =
+            dom->corrected ? pps_dom_choose_nodes(slab, streams) : PPS_NODES_GAUSS;
+    }
+    pps_status status = discretise(dom, streams, dom->corrected && slab->g > 0);
     if (!status) {
         status = create_orders(dom, orders_for(dom, o->orders));
     }
@@ -229,22 +231,68 @@ static double flux_up(const pps_dom *dom, double tau, const mode_sums *sum) {
     return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, -1);
 }
 
+/* Below this thickness single scattering dominates and directions mu ~ thickness, which
+ * no node resolves, carry it: fluxes and mean intensity then take their single-scattering
+ * part from the exact integral, as radiances always do. */
+static const double THIN = 0.1;
+
+/* What the discrete problem has of single scattering in one hemisphere. */
+static pps_hemisphere discrete_single(const pps_dom *dom, double scaled, bool down) {
+    const pps_discrete *d = &dom->discrete;
+    pps_hemisphere sum = {0};
+    for (int i = 0; i < d->n; i++) {
+        pps_ray ray;
+        double mu = down ? d->mu[i] : -d->mu[i];
+        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / dom->mu0, scaled, mu);
+        double part = d->weight[i] * ray.beam * d->albedo / (4 * PI) *
+                      pps_legendre_product(d->n_moments, d->strength, mu, dom->mu0);
+        sum.flux += 2 * PI * d->mu[i] * part;
+        sum.mean += part / 2;
+    }
+    return sum;
+}
+
+/* Adds the exact single scattering, of the true slab, less the discrete one. */
+static void correct_single(const pps_dom *dom, double tau, pps_flux *flux) {
+    const pps_slab *slab = &dom->slab;
+    for (int down = 0; down < 2; down++) {
+        pps_hemisphere exact =
+            pps_single_hemisphere(slab->g, dom->mu0, slab->thickness, tau, down);
+        pps_hemisphere discrete = discrete_single(dom, tau * dom->stretch, down);
+        double *hemisphere = down ? &flux->down : &flux->up;
+        *hemisphere += slab->albedo * exact.flux - discrete.flux;
+        flux->mean_diffuse += slab->albedo * exact.mean - discrete.mean;
+    }
+}
+
+static pps_flux flux_at(const pps_dom *dom, double tau) {
+    double mu0 = dom->mu0, scaled = tau * dom->stretch, beam = exp(-tau / mu0);
+    mode_sums sum = sum_modes(&dom->order[0], scaled);
+    pps_flux flux = {
+        .down = flux_down(dom, scaled, &sum),
+        .up = flux_up(dom, scaled, &sum),
+        .direct = mu0 * beam,
+        .mean_diffuse = sum.mean,
+    };
+    if (dom->corrected && dom->slab.thickness < THIN) {
+        correct_single(dom, tau, &flux);
+    } else {
+        /* What delta-M left in the beam is diffuse light of the true problem. */
+        double peak = exp(-scaled / mu0) * -expm1(-(tau - scaled) / mu0);
+        flux.down += mu0 * peak;
+        flux.mean_diffuse += peak / (4 * PI);
+    }
+    flux.mean = flux.mean_diffuse + beam / (4 * PI);
+    return flux;
+}
+
 pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
                         pps_flux *flux) {
-    double mu0 = dom->mu0;
-    if (!(mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
+    if (!(dom->mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
     for (size_t i = 0; i < n; i++) {
-        double scaled = tau[i] * dom->stretch, beam = exp(-tau[i] / mu0);
-        /* What delta-M left in the beam is diffuse light of the true problem. */
-        double peak = exp(-scaled / mu0) * -expm1(-(tau[i] - scaled) / mu0);
-        mode_sums sum = sum_modes(&dom->order[0], scaled);
-        flux[i].down = flux_down(dom, scaled, &sum) + mu0 * peak;
-        flux[i].up = flux_up(dom, scaled, &sum);
-        flux[i].direct = mu0 * beam;
-        flux[i].mean_diffuse = sum.mean + peak / (4 * PI);
-        flux[i].mean = flux[i].mean_diffuse + beam / (4 * PI);
+        flux[i] = flux_at(dom, tau[i]);
     }
     return PPS_OK;
 }

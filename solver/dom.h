@@ -27,6 +27,9 @@ struct pps_dom {
 pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
                                  double *radiance, double *rest);
 
+/* The nodes that PPS_NODES_AUTO means. */
+pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams);
+
 /* Azimuthal mean of the radiance of the discrete problem (its own single scattering
  * included), at a scaled depth. */
 double pps_dom_mean_radiance(const pps_dom *dom, double tau, double mu);

@@ -25,7 +25,7 @@ extern "C" {
 
 /* Quadrature of a hemisphere, n = streams / 2 nodes. */
 typedef enum {
-    PPS_NODES_AUTO,  /* mapped for thin slabs or |g| <= 0.5, else Gauss */
+    PPS_NODES_AUTO,  /* mapped for thin slabs, |g| <= 0.5 or many streams; else Gauss */
     PPS_NODES_GAUSS, /* Gauss-Legendre on (0, 1): "double Gauss" */
     PPS_NODES_MAPPED /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
 } pps_nodes;

@@ -39,13 +39,15 @@ typedef struct pps_info {
     double error_estimate; /* relative, as `tolerance`; NAN where the method has none */
 } pps_info;
 
+typedef struct pps_method_ops pps_method_ops;
+
 typedef struct pps_method {
     const char *name;
     const char *cost;    /* what one more case costs, in words */
     const char *summary; /* one line */
     const char *limits;  /* where it is wrong or refuses */
     bool fields, fluxes, half_space;
-    const struct pps_method_ops *ops;
+    const pps_method_ops *ops; /* private */
 } pps_method;
 
 /* The table, in the order it is shown; *n methods. */

@@ -1,0 +1,26 @@
+/* Integrals over a hemisphere of radiances that are known in closed form.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_CORE_HEMISPHERE_H
+#define PPS_CORE_HEMISPHERE_H
+
+/* An azimuthally averaged radiance as a function of |mu| in (0, 1). */
+typedef double (*pps_radiance_of_mu)(const void *context, double mu);
+
+typedef struct pps_hemisphere {
+    double flux; /* 2 pi int_0^1 mu I dmu */
+    double mean; /* half of int_0^1 I dmu: its share of the mean intensity */
+} pps_hemisphere;
+
+/* run: optical depth to the edge where the radiance starts from 0 (may be infinite);
+ * mu0, g: where the phase function peaks and how sharply. Relative accuracy 1e-12: Gauss
+ * panels that shrink towards mu = 0 (to run / 40) and towards mu0. */
+pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *context,
+                                       double run, double mu0, double g);
+
+/* Single scattering of a beam along mu0 in a slab of thickness w, per unit albedo, with
+ * the exact phase function: downward or upward hemisphere at depth tau. */
+pps_hemisphere pps_single_hemisphere(double g, double mu0, double w, double tau,
+                                     int down);
+
+#endif

@@ -1,0 +1,270 @@
+/* The method "exact": discrete ordinates with as many streams, nodes and orders as the
+ * tolerance asks for.
+ *
+ * With a given number of streams it is one solve. With `auto` it climbs a ladder of stream
+ * counts until two neighbours agree to the tolerance, and returns the finer: their
+ * difference is the error of the coarser one, so the estimate is on the safe side. The
+ * ladder is entered where the answer is expected, from (albedo, g, tolerance) alone, so
+ * that a case has one answer whatever was solved before it. Eigenproblems are kept for
+ * all thicknesses and beams of the model.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/method.h"
+#include "solver/dom.h"
+
+static const int ladder[] = {8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
+enum { N_LADDER = sizeof ladder / sizeof ladder[0] };
+
+/* With many azimuthal orders the last rungs would take minutes. */
+enum { MOST_STREAMS_RADIANCE = 256 };
+
+/* A solver kept for one stream count on one kind of nodes. */
+typedef struct {
+    pps_dom *dom; /* NULL until wanted */
+    bool all_orders;
+} rung;
+
+typedef struct {
+    pps_slab slab;
+    pps_options opts;
+    double mu0;
+    rung kept[N_LADDER][2]; /* [..][mapped]; a fixed stream count uses kept[0] */
+    pps_info info;
+} exact;
+
+static pps_status exact_init(void *state, const pps_slab *slab, const pps_options *opts) {
+    exact *e = state;
+    e->slab = *slab;
+    e->opts = *opts;
+    e->info.error_estimate = (double)NAN;
+    if (opts->delta_m == PPS_DELTA_M_ON && slab->g < 0) {
+        return PPS_ERR_UNSUPPORTED;
+    }
+    return PPS_OK;
+}
+
+static void exact_clear(void *state) {
+    exact *e = state;
+    for (int i = 0; i < N_LADDER; i++) {
+        pps_dom_free(e->kept[i][0].dom);
+        pps_dom_free(e->kept[i][1].dom);
+    }
+}
+
+static pps_status exact_solve(void *state, double thickness, double mu0) {
+    exact *e = state;
+    e->slab.thickness = thickness;
+    e->mu0 = mu0;
+    return PPS_OK;
+}
+
+static pps_nodes nodes_of(const exact *e, int streams) {
+    if (e->opts.delta_m == PPS_DELTA_M_OFF) {
+        return PPS_NODES_GAUSS;
+    }
+    return e->opts.nodes != PPS_NODES_AUTO ? e->opts.nodes
+                                           : pps_dom_choose_nodes(&e->slab, streams);
+}
+
+/* The solver of a rung, made and solved for the present slab and beam. orders: 0 for as
+ * many as the azimuth tolerance asks for. */
+static pps_status rung_solve(exact *e, int index, int streams, int orders,
+                             double azimuth, pps_dom **out) {
+    pps_nodes nodes = nodes_of(e, streams);
+    rung *r = &e->kept[index][nodes == PPS_NODES_MAPPED];
+    bool enough = r->dom && (orders == 1 || r->all_orders);
+    if (orders > 1 && r->dom && r->dom->n_orders < orders) {
+        enough = false;
+    }
+    if (!enough) {
+        pps_dom_free(r->dom);
+        pps_dom_opts opts = {.streams = streams,
+                             .nodes = nodes,
+                             .delta_m = e->opts.delta_m,
+                             .orders = orders,
+                             .tolerance = azimuth};
+        pps_status status = pps_dom_create(&e->slab, &opts, &r->dom);
+        if (status) {
+            return status;
+        }
+        r->all_orders = orders != 1;
+    }
+    *out = r->dom;
+    if (r->dom->slab.thickness != e->slab.thickness) {
+        pps_status status = pps_dom_set_thickness(r->dom, e->slab.thickness);
+        if (status) {
+            return status;
+        }
+    }
+    return r->dom->mu0 == e->mu0 ? PPS_OK : pps_dom_solve(r->dom, e->mu0);
+}
+
+/* What is asked of a rung: a radiance or fluxes, as n plain numbers. */
+typedef struct {
+    const pps_grid *at; /* NULL for fluxes */
+    size_t n_tau;
+    const double *tau;
+    size_t n;
+} request;
+
+static pps_status rung_fluxes(exact *e, int index, int streams, const request *what,
+                              pps_flux *flux) {
+    pps_dom *dom;
+    pps_status status = rung_solve(e, index, streams, 1, 0, &dom);
+    if (!status) {
+        status = pps_dom_flux(dom, what->n_tau, what->tau, flux);
+        e->info.orders = 1;
+    }
+    return status;
+}
+
+static pps_status rung_radiance(exact *e, int index, int streams, double azimuth,
+                                const request *what, double *radiance) {
+    pps_dom *dom;
+    pps_status status = rung_solve(e, index, streams, 0, azimuth, &dom);
+    double rest = 0;
+    while (!status) {
+        status = pps_dom_radiance_rest(dom, what->at, radiance, &rest);
+        if (status || rest <= 10 * azimuth) {
+            break;
+        }
+        status = rung_solve(e, index, streams, 2 * dom->n_orders, azimuth, &dom);
+    }
+    if (!status) {
+        e->info.orders = dom->n_orders;
+    }
+    return status;
+}
+
+/* The answer of one rung as numbers, and what it used. */
+static pps_status rung_answer(exact *e, int index, int streams, double azimuth,
+                              const request *what, double *answer) {
+    e->info.streams = streams;
+    e->info.nodes = nodes_of(e, streams);
+    e->info.delta_m = e->opts.delta_m != PPS_DELTA_M_OFF && e->slab.g > 0;
+    return what->at ? rung_radiance(e, index, streams, azimuth, what, answer)
+                    : rung_fluxes(e, index, streams, what, (pps_flux *)(void *)answer);
+}
+
+/* The largest relative difference: radiances against max(value, 1e-3 of the largest),
+ * fluxes against themselves. */
+static double difference(const request *what, const double *coarse, const double *fine) {
+    double largest = 0, worst = 0;
+    for (size_t i = 0; what->at && i < what->n; i++) {
+        largest = fmax(largest, fabs(fine[i]));
+    }
+    for (size_t i = 0; i < what->n; i++) {
+        double scale = fmax(fabs(fine[i]), 1e-3 * largest);
+        double error = fabs(fine[i] - coarse[i]);
+        if (!(error < 1e-290)) { /* a NaN counts */
+            worst = fmax(worst, isnan(error) ? INFINITY : error / scale);
+        }
+    }
+    return worst;
+}
+
+/* Where to enter the ladder. Fitted to where `exact` meets its tolerance over g 0..0.95
+ * and thickness 0.01..inf (tests/test_auto.c shows that it does). */
+static int first_rung(const exact *e) {
+    double digits = -log10(e->opts.tolerance), g = fabs(e->slab.g);
+    double expected = 8 * digits - 16;
+    if (g > 0) {
+        expected = fmax(expected, 0.75 * digits * log(10.0) / -log(g));
+    }
+    int index = 0;
+    while (index + 2 < N_LADDER && ladder[index + 1] <= 0.8 * expected) {
+        index++;
+    }
+    return index;
+}
+
+static int last_rung(const request *what) {
+    int last = N_LADDER - 1;
+    while (what->at && ladder[last] > MOST_STREAMS_RADIANCE) {
+        last--;
+    }
+    return last;
+}
+
+static pps_status climb(exact *e, const request *what, double *answer, double *other) {
+    int last = last_rung(what), first = first_rung(e);
+    bool have_coarse = false;
+    double azimuth = e->opts.tolerance / 100;
+    pps_status status = PPS_ERR_TOLERANCE;
+    for (int i = first < last ? first : last - 1; i <= last; i++) {
+        double *fine = have_coarse ? other : answer;
+        status = rung_answer(e, i, ladder[i], azimuth, what, fine);
+        if (status == PPS_ERR_INDEFINITE) {
+            have_coarse = false; /* more streams may mend it */
+            continue;
+        }
+        if (status) {
+            return status;
+        }
+        if (!have_coarse) {
+            have_coarse = true;
+            continue;
+        }
+        e->info.error_estimate = difference(what, answer, fine);
+        for (size_t k = 0; k < what->n; k++) {
+            answer[k] = fine[k];
+        }
+        if (e->info.error_estimate <= e->opts.tolerance) {
+            return PPS_OK;
+        }
+    }
+    return status ? status : PPS_ERR_TOLERANCE;
+}
+
+static pps_status produce(exact *e, const request *what, double *answer) {
+    e->info.error_estimate = (double)NAN;
+    if (e->opts.streams > 0) {
+        /* Given streams: the azimuth series to rounding. */
+        return rung_answer(e, 0, e->opts.streams, 1e-15, what, answer);
+    }
+    double *other = malloc((what->n + 1) * sizeof *other);
+    if (!other) {
+        return PPS_ERR_MEMORY;
+    }
+    pps_status status = climb(e, what, answer, other);
+    free(other);
+    return status;
+}
+
+static pps_status exact_radiance(void *state, const pps_grid *at, double *radiance) {
+    request what = {.at = at, .n = at->n_tau * at->n_mu * at->n_phi};
+    return produce(state, &what, radiance);
+}
+
+static pps_status exact_flux(void *state, size_t n, const double *tau, pps_flux *flux) {
+    request what = {.n_tau = n, .tau = tau, .n = n * sizeof *flux / sizeof(double)};
+    return produce(state, &what, (double *)(void *)flux);
+}
+
+static void exact_query(const void *state, pps_info *info) {
+    *info = ((const exact *)state)->info;
+}
+
+static const pps_method_ops ops = {
+    .state_size = sizeof(exact),
+    .init = exact_init,
+    .solve = exact_solve,
+    .radiance = exact_radiance,
+    .flux = exact_flux,
+    .query = exact_query,
+    .clear = exact_clear,
+};
+
+const pps_method pps_method_exact = {
+    .name = "exact",
+    .cost = "eigenproblems per (albedo, g), then microseconds to milliseconds a case",
+    .summary = "discrete ordinates (SPP Eq. 7), streams chosen to the tolerance",
+    .limits = "refuses where 256 streams (fluxes: 512) miss the tolerance, as for g > 0.97",
+    .fields = true,
+    .fluxes = true,
+    .half_space = true,
+    .ops = &ops,
+};

@@ -1,0 +1,66 @@
+/* Ray marching in closed form (SPP A.1).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "spp/march.h"
+
+#include <math.h>
+
+#include <ppscat/phase.h>
+
+#include "core/hemisphere.h"
+
+static const double PI = 3.14159265358979323846;
+
+static double diffuse_part(const pps_march *march, const pps_ray *ray, double mu) {
+    return march->diffuse ? march->diffuse(march->solution, ray, mu) : 0;
+}
+
+void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance) {
+    double albedo = march->slab.albedo, g = march->slab.g;
+    for (size_t k = 0; k < at->n_tau; k++) {
+        for (size_t j = 0; j < at->n_mu; j++) {
+            pps_ray ray;
+            pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, at->tau[k],
+                         at->mu[j]);
+            double diffuse = diffuse_part(march, &ray, at->mu[j]);
+            for (size_t i = 0; i < at->n_phi; i++) {
+                double x = pps_cos_scattering(march->mu0, at->mu[j], at->phi[i]);
+                *radiance++ = albedo * (diffuse + pps_hg(g, x) * ray.beam);
+            }
+        }
+    }
+}
+
+/* One hemisphere at one depth, as the integrand of pps_hemisphere_integral. */
+typedef struct {
+    const pps_march *march;
+    double tau, sign;
+} hemisphere;
+
+static double azimuth_mean(const void *context, double abs_mu) {
+    const hemisphere *h = context;
+    const pps_march *march = h->march;
+    double mu = h->sign * abs_mu;
+    pps_ray ray;
+    pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, h->tau, mu);
+    return march->slab.albedo *
+           (diffuse_part(march, &ray, mu) +
+            pps_hg_azimuth_mean(march->slab.g, mu, march->mu0) * ray.beam);
+}
+
+void pps_march_flux(const pps_march *march, size_t n, const double *tau,
+                    pps_flux *flux) {
+    double mu0 = march->mu0, w = march->slab.thickness, g = march->slab.g;
+    for (size_t i = 0; i < n; i++) {
+        hemisphere down = {march, tau[i], 1}, up = {march, tau[i], -1};
+        pps_hemisphere d = pps_hemisphere_integral(azimuth_mean, &down, tau[i], mu0, g);
+        pps_hemisphere u =
+            pps_hemisphere_integral(azimuth_mean, &up, w - tau[i], mu0, g);
+        double beam = exp(-tau[i] / mu0);
+        flux[i] = (pps_flux){.up = u.flux,
+                             .down = d.flux,
+                             .direct = mu0 * beam,
+                             .mean_diffuse = d.mean + u.mean,
+                             .mean = d.mean + u.mean + beam / (4 * PI)};
+    }
+}

@@ -1,0 +1,32 @@
+/* Ray marching in closed form (SPP A.1): the radiance of a source
+ *
+ *     J(tau, s) = albedo [ S+(mu) D(tau) + S-(mu) U(tau) + p(s, s0) e^(-q tau) ],
+ *
+ * with D and U known through their ray integrals. Refined SPP, Eddington and single
+ * scattering are this with different D, U and S.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_SPP_MARCH_H
+#define PPS_SPP_MARCH_H
+
+#include <ppscat/slab.h>
+
+#include "core/mode.h"
+
+/* The diffuse part of the source integrated along a ray in direction mu, without the
+ * factor albedo. */
+typedef double (*pps_march_diffuse)(const void *solution, const pps_ray *ray, double mu);
+
+typedef struct pps_march {
+    pps_slab slab;
+    double mu0;
+    pps_march_diffuse diffuse; /* NULL: single scattering only */
+    const void *solution;
+} pps_march;
+
+void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance);
+
+/* Fluxes and mean intensity as hemispheric integrals of that radiance. */
+void pps_march_flux(const pps_march *march, size_t n, const double *tau, pps_flux *flux);
+
+#endif
