@@ -160,7 +160,7 @@ static double difference(const request *what, const double *coarse, const double
         double scale = fmax(fabs(fine[i]), 1e-3 * largest);
         double error = fabs(fine[i] - coarse[i]);
         if (!(error < 1e-290)) { /* a NaN counts */
-            worst = fmax(worst, isnan(error) ? INFINITY : error / scale);
+            worst = fmax(worst, isnan(error) ? HUGE_VAL : error / scale);
         }
     }
     return worst;
