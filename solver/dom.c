@@ -69,18 +69,31 @@ static void scale_peak(pps_dom *dom, bool scaled) {
     }
 }
 
+static void quadrature_bias(pps_discrete *d, pps_nodes nodes) {
+    double p[PPS_STREAMS_MAX], sum[PPS_STREAMS_MAX] = {0};
+    for (int i = 0; nodes == PPS_NODES_MAPPED && i < d->n; i++) {
+        pps_legendre(0, d->n_moments, d->mu[i], p);
+        for (int l = 2; l < d->n_moments; l += 2) {
+            sum[l] += d->weight[i] * p[l];
+        }
+    }
+    memcpy(d->bias, sum, (size_t)d->n_moments * sizeof *sum);
+}
+
 static pps_status discretise(pps_dom *dom, int streams, bool scaled) {
     pps_discrete *d = &dom->discrete;
     d->n = streams / 2;
     d->n_moments = moments_for(dom->nodes, streams);
     size_t n = (size_t)d->n;
-    d->mu = malloc((2 * n + (size_t)d->n_moments) * sizeof *d->mu);
+    d->mu = malloc((2 * n + 2 * (size_t)d->n_moments) * sizeof *d->mu);
     if (!d->mu) {
         return PPS_ERR_MEMORY;
     }
     d->weight = d->mu + n;
     d->strength = d->weight + n;
+    d->bias = d->strength + d->n_moments;
     pps_hemisphere_nodes(dom->nodes, d->n, d->mu, d->weight);
+    quadrature_bias(d, dom->nodes);
     d->squared = d->mu[0] > SQUARED_NODE;
     scale_peak(dom, scaled);
     return PPS_OK;
@@ -231,41 +244,62 @@ static double flux_up(const pps_dom *dom, double tau, const mode_sums *sum) {
     return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, -1);
 }
 
-/* Below this thickness single scattering dominates and directions mu ~ thickness, which
- * no node resolves, carry it: fluxes and mean intensity then take their single-scattering
- * part from the exact integral, as radiances always do. */
+/* Thin slabs. Single scattering dominates there, and directions mu ~ thickness, which no
+ * node resolves, carry much of the mean intensity. Below this thickness fluxes and mean
+ * intensity take their single-scattering part from the exact integral, as radiances
+ * always do. What is left, multiple scattering, is scaled with the energy that single
+ * scattering hands over to it, so that energy is conserved to rounding as before. */
 static const double THIN = 0.1;
 
 /* What the discrete problem has of single scattering in one hemisphere. */
-static pps_hemisphere discrete_single(const pps_dom *dom, double scaled, bool down) {
+static pps_hemisphere discrete_single(const pps_dom *dom, double scaled, int down) {
     const pps_discrete *d = &dom->discrete;
     pps_hemisphere sum = {0};
     for (int i = 0; i < d->n; i++) {
         pps_ray ray;
         double mu = down ? d->mu[i] : -d->mu[i];
         pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / dom->mu0, scaled, mu);
-        double part = d->weight[i] * ray.beam * d->albedo / (4 * PI) *
-                      pps_legendre_product(d->n_moments, d->strength, mu, dom->mu0);
+        double part =
+            d->weight[i] * ray.beam * pps_discrete_single(d, mu, dom->mu0);
         sum.flux += 2 * PI * d->mu[i] * part;
         sum.mean += part / 2;
     }
     return sum;
 }
 
-/* Adds the exact single scattering, of the true slab, less the discrete one. */
-static void correct_single(const pps_dom *dom, double tau, pps_flux *flux) {
+static pps_hemisphere exact_single(const pps_dom *dom, double tau, int down) {
     const pps_slab *slab = &dom->slab;
-    for (int down = 0; down < 2; down++) {
-        pps_hemisphere exact =
-            pps_single_hemisphere(slab->g, dom->mu0, slab->thickness, tau, down);
-        pps_hemisphere discrete = discrete_single(dom, tau * dom->stretch, down);
-        double *hemisphere = down ? &flux->down : &flux->up;
-        *hemisphere += slab->albedo * exact.flux - discrete.flux;
-        flux->mean_diffuse += slab->albedo * exact.mean - discrete.mean;
-    }
+    pps_hemisphere h =
+        pps_single_hemisphere(slab->g, dom->mu0, slab->thickness, tau, down);
+    return (pps_hemisphere){slab->albedo * h.flux, slab->albedo * h.mean};
 }
 
-static pps_flux flux_at(const pps_dom *dom, double tau) {
+/* What is scattered once and meets the slab again, exact over discrete. */
+static double multiple_scale(const pps_dom *dom) {
+    double w = dom->slab.thickness, scaled = w * dom->stretch, mu0 = dom->mu0;
+    double exact = -dom->slab.albedo * mu0 * expm1(-w / mu0) -
+                   exact_single(dom, 0, 0).flux - exact_single(dom, w, 1).flux;
+    double discrete = -dom->discrete.albedo * mu0 * expm1(-scaled / mu0) -
+                      discrete_single(dom, 0, 0).flux -
+                      discrete_single(dom, scaled, 1).flux;
+    return exact > 0 && discrete > 0 ? exact / discrete : 1;
+}
+
+static void correct_single(const pps_dom *dom, double tau, double scale,
+                           pps_flux *flux) {
+    double mean = 0;
+    for (int down = 0; down < 2; down++) {
+        pps_hemisphere exact = exact_single(dom, tau, down);
+        pps_hemisphere discrete = discrete_single(dom, tau * dom->stretch, down);
+        double *hemisphere = down ? &flux->down : &flux->up;
+        *hemisphere = exact.flux + scale * (*hemisphere - discrete.flux);
+        flux->mean_diffuse -= discrete.mean;
+        mean += exact.mean;
+    }
+    flux->mean_diffuse = mean + scale * flux->mean_diffuse;
+}
+
+static pps_flux flux_at(const pps_dom *dom, double tau, double thin_scale) {
     double mu0 = dom->mu0, scaled = tau * dom->stretch, beam = exp(-tau / mu0);
     mode_sums sum = sum_modes(&dom->order[0], scaled);
     pps_flux flux = {
@@ -274,8 +308,8 @@ static pps_flux flux_at(const pps_dom *dom, double tau) {
         .direct = mu0 * beam,
         .mean_diffuse = sum.mean,
     };
-    if (dom->corrected && dom->slab.thickness < THIN) {
-        correct_single(dom, tau, &flux);
+    if (thin_scale > 0) {
+        correct_single(dom, tau, thin_scale, &flux);
     } else {
         /* What delta-M left in the beam is diffuse light of the true problem. */
         double peak = exp(-scaled / mu0) * -expm1(-(tau - scaled) / mu0);
@@ -291,8 +325,10 @@ pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
     if (!(dom->mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
+    bool thin = dom->corrected && dom->slab.thickness < THIN;
+    double scale = thin ? multiple_scale(dom) : 0;
     for (size_t i = 0; i < n; i++) {
-        flux[i] = flux_at(dom, tau[i]);
+        flux[i] = flux_at(dom, tau[i], scale);
     }
     return PPS_OK;
 }

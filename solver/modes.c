@@ -47,10 +47,27 @@ static pps_status scratch_alloc(eigen_scratch *s, int n, int n_columns) {
     return PPS_OK;
 }
 
+void pps_discrete_legendre(const pps_discrete *discrete, int m, double mu, double *p) {
+    pps_legendre(m, discrete->n_moments, mu, p);
+    for (int l = 2; m == 0 && l < discrete->n_moments; l += 2) {
+        p[l] -= discrete->bias[l];
+    }
+}
+
+double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0) {
+    double at[PPS_STREAMS_MAX], at0[PPS_STREAMS_MAX], sum = 0;
+    pps_discrete_legendre(discrete, 0, mu, at);
+    pps_discrete_legendre(discrete, 0, mu0, at0);
+    for (int l = 0; l < discrete->n_moments; l++) {
+        sum += discrete->strength[l] * at[l] * at0[l];
+    }
+    return discrete->albedo / (4 * 3.14159265358979323846) * sum;
+}
+
 /* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l; row is n_columns of scratch. */
 static void node_functions(const pps_discrete *d, int m, double *p, double *row) {
     for (int i = 0; i < d->n; i++) {
-        pps_legendre(m, d->n_moments, d->mu[i], row);
+        pps_discrete_legendre(d, m, d->mu[i], row);
         for (int c = 0; c < d->n_moments - m; c++) {
             p[i + c * d->n] = sqrt(d->weight[i]) * row[c];
         }
@@ -91,7 +108,7 @@ static void reflect(int n, const double *h, double *v) {
 }
 
 /* m = 0: sqrt(w) is an eigenvector of Ce with eigenvalue `albedo` exactly, as the even
- * P_l are orthogonal to 1 on a hemisphere. H, which takes sqrt(w) to -e1, turns 1 - Ce
+ * P_l are orthogonal to 1 on a hemisphere (the Gauss nodes; others are made so by bias). H, which takes sqrt(w) to -e1, turns 1 - Ce
  * into diag(1 - albedo, N); both are set so, and the small eigenvalue keeps its digits up
  * to albedo 1. N = C C^T is left in root, rows and columns 1.. .*/
 static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
@@ -317,7 +334,7 @@ pps_status pps_order_create(pps_order *order, const pps_discrete *discrete, int 
 void pps_order_project(const pps_order *order, const pps_discrete *discrete, double mu,
                        double *ge, double *go, double *legendre) {
     int m = order->m, n = order->n;
-    pps_legendre(m, discrete->n_moments, fabs(mu), legendre);
+    pps_discrete_legendre(discrete, m, fabs(mu), legendre);
     for (int c = 0; c < discrete->n_moments - m; c++) {
         legendre[c] *= discrete->albedo / 2 * discrete->strength[m + c];
     }

@@ -23,8 +23,18 @@ typedef struct pps_discrete {
     double albedo, co_albedo; /* co_albedo = 1 - albedo, exact where albedo is near 1 */
     double *mu, *weight;      /* n each */
     double *strength;         /* (2l+1) chi_l, n_moments of them */
+    double *bias;             /* sum_i w_i P_l(mu_i) of even l >= 2, else 0 */
     bool squared;             /* the nodes allow the faster eigenproblem */
 } pps_discrete;
+
+/* The functions the discrete problem scatters with: P_l^m (legendre.h), and for m = 0 the
+ * even P_l less their quadrature sum, which on mapped nodes is not 0 by itself. So every
+ * scattering, the first one included, conserves energy on the nodes exactly. */
+void pps_discrete_legendre(const pps_discrete *discrete, int m, double mu, double *p);
+
+/* Source of the discrete problem for single scattering from mu0 to mu, m = 0:
+ * albedo / 4pi sum of strength_l P_l(mu) P_l(mu0). */
+double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0);
 
 typedef struct pps_order {
     int m, n, n_even, n_odd;

@@ -43,9 +43,8 @@ double pps_dom_mean_radiance(const pps_dom *dom, double tau, double mu) {
         at[j] = pps_mode_at(&order->mode[j], tau);
     }
     pps_order_project(order, d, mu, ge, go, legendre);
-    double source = d->albedo / (4 * PI) *
-                    pps_legendre_product(d->n_moments, d->strength, mu, dom->mu0);
-    return ray_sum(order, &ray, at, ge, go) + source * ray.beam;
+    return ray_sum(order, &ray, at, ge, go) +
+           pps_discrete_single(d, mu, dom->mu0) * ray.beam;
 }
 
 /* albedo p of the scattering angle, as single scattering takes it. The exact p is
