@@ -13,7 +13,8 @@
 static const double PI = 3.14159265358979323846;
 
 enum { PANEL_POINTS = 16 };
-static const double PANEL_RATIO = 4; /* 16 points then hold 1e-15 beside a singularity */
+static const double PANEL_RATIO =
+    4; /* 16 points then hold 1e-15 beside a singularity */
 
 typedef struct {
     pps_radiance_of_mu radiance;

@@ -9,6 +9,7 @@
 void pps_legendre(int m, int n_moments, double mu, double *p);
 
 /* sum over l < n_moments of coefficient[l] P_l(x) P_l(y). */
-double pps_legendre_product(int n_moments, const double *coefficient, double x, double y);
+double pps_legendre_product(int n_moments, const double *coefficient, double x,
+                            double y);
 
 #endif

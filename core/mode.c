@@ -104,8 +104,7 @@ void pps_mode_close(pps_mode *mode, const pps_mode_edges *edges) {
     switch (mode->kind) {
     case PPS_MODE_THIN: /* phi_h = -psi_h'; the particular part is 0 at tau = 0 ... */
         mode->c1 = edges->even - edges->odd;
-        mode->c2 = edges->even * pps_k_tanh(k, half) -
-                   edges->odd * pps_k_coth(k, half);
+        mode->c2 = edges->even * pps_k_tanh(k, half) - edges->odd * pps_k_coth(k, half);
         break;
     case PPS_MODE_SMALL:
         mode->c1 = edges->bottom;
@@ -189,7 +188,8 @@ void pps_ray_init(pps_ray *ray, double w, double q, double tau, double mu) {
                      .ecx = exp(-c * x),
                      .eqt = exp(-q * tau),
                      .down = mu > 0};
-    ray->beam = c * (ray->down ? pps_exp1(tau, q, c) : ray->eqt * pps_exp1(x, 0, q + c));
+    ray->beam =
+        c * (ray->down ? pps_exp1(tau, q, c) : ray->eqt * pps_exp1(x, 0, q + c));
 }
 
 pps_mode_depth pps_mode_at(const pps_mode *mode, double tau) {
@@ -210,8 +210,7 @@ static void ray_exponentials(const pps_mode *mode, const pps_ray *ray,
     double k = mode->k, c = ray->c;
     if (ray->down) {
         *from_top = c * pps_exp1_known(ray->tau, k, c, at->ekt, ray->ect);
-        *from_bottom =
-            c * at->ekx * decay_known(ray->tau, k + c, at->ekt * ray->ect);
+        *from_bottom = c * at->ekx * decay_known(ray->tau, k + c, at->ekt * ray->ect);
     } else {
         *from_top = c * at->ekt * decay_known(ray->x, k + c, at->ekx * ray->ecx);
         *from_bottom =
@@ -305,10 +304,11 @@ void pps_mode_ray(const pps_mode *mode, const pps_ray *ray, const pps_mode_depth
         double s = pps_exp1(mode->w, 0, 2 * k);
         ray_cosh(ray, k, mode->w, &top, &bottom);
         *psi = (mode->c1 * pps_ray_sinh_top(ray, k) +
-                mode->c2 * pps_ray_sinh_bottom(ray, k)) / s +
+                mode->c2 * pps_ray_sinh_bottom(ray, k)) /
+                   s +
                p * ray->beam;
-        *phi = mode->c2 * bottom - mode->c1 * top +
-               (mode->beta + mode->q * p) * ray->beam;
+        *phi =
+            mode->c2 * bottom - mode->c1 * top + (mode->beta + mode->q * p) * ray->beam;
         return;
     }
     case PPS_MODE_RESONANT: {

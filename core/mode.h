@@ -60,11 +60,11 @@ void pps_mode_state(const pps_mode *mode, double tau, double *psi, double *phi);
 
 /* A depth and a direction; what depends on them alone is computed once for all modes. */
 typedef struct pps_ray {
-    double tau, x, c;      /* x = w - tau, c = 1/|mu| */
-    double ect, ecx;       /* e^(-c tau), e^(-c x) */
-    double eqt;            /* e^(-q tau) */
-    double beam;           /* the integral below of e^(-q t) */
-    int down;              /* mu > 0 */
+    double tau, x, c; /* x = w - tau, c = 1/|mu| */
+    double ect, ecx;  /* e^(-c tau), e^(-c x) */
+    double eqt;       /* e^(-q tau) */
+    double beam;      /* the integral below of e^(-q t) */
+    int down;         /* mu > 0 */
 } pps_ray;
 void pps_ray_init(pps_ray *ray, double w, double q, double tau, double mu);
 

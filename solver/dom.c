@@ -43,16 +43,12 @@ pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
     return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
 }
 
-/* Orders m >= 1 enter by multiple scattering alone (single scattering is summed in
- * closed form), so that order m is of the size of g^(2m). */
-static int orders_for(const pps_dom *dom, int asked) {
-    int most = dom->discrete.n_moments;
-    double g = fabs(dom->slab.g), needed = asked;
-    if (asked == 0) {
-        double digits = log(100 / dom->tolerance);
-        needed = g == 0 ? 1 : 4 + ceil(digits / (-2 * log(g)));
-    }
-    return needed < most ? (int)needed : most;
+int pps_dom_orders_for(double g, double tolerance, int n_moments) {
+    /* Orders m >= 1 enter by multiple scattering alone (single scattering is summed in
+     * closed form), so that order m is of the size of g^(2m). */
+    double digits = log(100 / tolerance);
+    double needed = g == 0 ? 1 : 4 + ceil(digits / (-2 * log(fabs(g))));
+    return needed < n_moments ? (int)needed : n_moments;
 }
 
 /* Delta-M: moments (g^l - f)/(1 - f) with f the first moment left out. */
@@ -115,7 +111,8 @@ static pps_status create_orders(pps_dom *dom, int wanted) {
     return pps_dom_set_thickness(dom, dom->slab.thickness);
 }
 
-pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts, pps_dom **out) {
+pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts,
+                          pps_dom **out) {
     static const pps_dom_opts defaults = {0};
     const pps_dom_opts *o = opts ? opts : &defaults;
     *out = NULL;
@@ -140,7 +137,12 @@ pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts, pps_do
     }
     pps_status status = discretise(dom, streams, dom->corrected && slab->g > 0);
     if (!status) {
-        status = create_orders(dom, orders_for(dom, o->orders));
+        int most = dom->discrete.n_moments;
+        int orders = o->orders < most ? o->orders : most;
+        if (orders == 0) {
+            orders = pps_dom_orders_for(slab->g, dom->tolerance, most);
+        }
+        status = create_orders(dom, orders);
     }
     if (status) {
         pps_dom_free(dom);
@@ -258,9 +260,9 @@ static pps_hemisphere discrete_single(const pps_dom *dom, double scaled, int dow
     for (int i = 0; i < d->n; i++) {
         pps_ray ray;
         double mu = down ? d->mu[i] : -d->mu[i];
-        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / dom->mu0, scaled, mu);
-        double part =
-            d->weight[i] * ray.beam * pps_discrete_single(d, mu, dom->mu0);
+        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / dom->mu0, scaled,
+                     mu);
+        double part = d->weight[i] * ray.beam * pps_discrete_single(d, mu, dom->mu0);
         sum.flux += 2 * PI * d->mu[i] * part;
         sum.mean += part / 2;
     }

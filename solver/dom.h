@@ -14,18 +14,22 @@ struct pps_dom {
     bool corrected; /* single scattering with the exact phase function */
     double tolerance;
     pps_discrete discrete;
-    double f;               /* truncated fraction of delta-M; 0 without */
-    double stretch;         /* scaled optical depth / true: 1 - albedo f */
-    double mu0;             /* 0 until solved */
+    double f;       /* truncated fraction of delta-M; 0 without */
+    double stretch; /* scaled optical depth / true: 1 - albedo f */
+    double mu0;     /* 0 until solved */
     int n_orders;
     pps_order *order;
-    double *scratch;        /* of pps_order_solve */
+    double *scratch; /* of pps_order_solve */
 };
 
-/* pps_dom_radiance, and how much the last two azimuthal orders still added, relative to
- * each value; 0 when the series was not cut. */
-pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
-                                 double *radiance, double *rest);
+/* pps_dom_radiance with the first n_orders of the prepared orders, and how much the last
+ * two still added, relative to max(value, 1e-3 of the largest); 0 when the series ended
+ * by itself. */
+pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_grid *at,
+                                   double *radiance, double *rest);
+
+/* How many orders a tolerance of the azimuth series asks for. */
+int pps_dom_orders_for(double g, double tolerance, int n_moments);
 
 /* The nodes that PPS_NODES_AUTO means. */
 pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams);

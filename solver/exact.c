@@ -21,21 +21,17 @@ enum { N_LADDER = sizeof ladder / sizeof ladder[0] };
 /* With many azimuthal orders the last rungs would take minutes. */
 enum { MOST_STREAMS_RADIANCE = 256 };
 
-/* A solver kept for one stream count on one kind of nodes. */
-typedef struct {
-    pps_dom *dom; /* NULL until wanted */
-    bool all_orders;
-} rung;
-
 typedef struct {
     pps_slab slab;
     pps_options opts;
     double mu0;
-    rung kept[N_LADDER][2]; /* [..][mapped]; a fixed stream count uses kept[0] */
+    /* Solvers kept, [rung][mapped]; a given number of streams uses kept[0]. */
+    pps_dom *kept[N_LADDER][2];
     pps_info info;
 } exact;
 
-static pps_status exact_init(void *state, const pps_slab *slab, const pps_options *opts) {
+static pps_status exact_init(void *state, const pps_slab *slab,
+                             const pps_options *opts) {
     exact *e = state;
     e->slab = *slab;
     e->opts = *opts;
@@ -49,8 +45,8 @@ static pps_status exact_init(void *state, const pps_slab *slab, const pps_option
 static void exact_clear(void *state) {
     exact *e = state;
     for (int i = 0; i < N_LADDER; i++) {
-        pps_dom_free(e->kept[i][0].dom);
-        pps_dom_free(e->kept[i][1].dom);
+        pps_dom_free(e->kept[i][0]);
+        pps_dom_free(e->kept[i][1]);
     }
 }
 
@@ -69,37 +65,36 @@ static pps_nodes nodes_of(const exact *e, int streams) {
                                            : pps_dom_choose_nodes(&e->slab, streams);
 }
 
-/* The solver of a rung, made and solved for the present slab and beam. orders: 0 for as
- * many as the azimuth tolerance asks for. */
+/* The solver of a rung with at least so many orders, made and solved for the present slab
+ * and beam. */
 static pps_status rung_solve(exact *e, int index, int streams, int orders,
                              double azimuth, pps_dom **out) {
     pps_nodes nodes = nodes_of(e, streams);
-    rung *r = &e->kept[index][nodes == PPS_NODES_MAPPED];
-    bool enough = r->dom && (orders == 1 || r->all_orders);
-    if (orders > 1 && r->dom && r->dom->n_orders < orders) {
-        enough = false;
+    pps_dom **kept = &e->kept[index][nodes == PPS_NODES_MAPPED];
+    if (*kept && (*kept)->n_orders < orders &&
+        (*kept)->n_orders < (*kept)->discrete.n_moments) {
+        pps_dom_free(*kept);
+        *kept = NULL;
     }
-    if (!enough) {
-        pps_dom_free(r->dom);
+    if (!*kept) {
         pps_dom_opts opts = {.streams = streams,
                              .nodes = nodes,
                              .delta_m = e->opts.delta_m,
                              .orders = orders,
                              .tolerance = azimuth};
-        pps_status status = pps_dom_create(&e->slab, &opts, &r->dom);
-        if (status) {
-            return status;
-        }
-        r->all_orders = orders != 1;
-    }
-    *out = r->dom;
-    if (r->dom->slab.thickness != e->slab.thickness) {
-        pps_status status = pps_dom_set_thickness(r->dom, e->slab.thickness);
+        pps_status status = pps_dom_create(&e->slab, &opts, kept);
         if (status) {
             return status;
         }
     }
-    return r->dom->mu0 == e->mu0 ? PPS_OK : pps_dom_solve(r->dom, e->mu0);
+    *out = *kept;
+    if ((*kept)->slab.thickness != e->slab.thickness) {
+        pps_status status = pps_dom_set_thickness(*kept, e->slab.thickness);
+        if (status) {
+            return status;
+        }
+    }
+    return (*kept)->mu0 == e->mu0 ? PPS_OK : pps_dom_solve(*kept, e->mu0);
 }
 
 /* What is asked of a rung: a radiance or fluxes, as n plain numbers. */
@@ -121,22 +116,24 @@ static pps_status rung_fluxes(exact *e, int index, int streams, const request *w
     return status;
 }
 
+/* As many orders as g and the tolerance ask for, doubled while the last ones still add. */
 static pps_status rung_radiance(exact *e, int index, int streams, double azimuth,
                                 const request *what, double *radiance) {
-    pps_dom *dom;
-    pps_status status = rung_solve(e, index, streams, 0, azimuth, &dom);
-    double rest = 0;
-    while (!status) {
-        status = pps_dom_radiance_rest(dom, what->at, radiance, &rest);
-        if (status || rest <= 10 * azimuth) {
-            break;
+    int orders = pps_dom_orders_for(e->slab.g, azimuth, streams);
+    for (;; orders *= 2) {
+        pps_dom *dom;
+        double rest;
+        pps_status status = rung_solve(e, index, streams, orders, azimuth, &dom);
+        if (status) {
+            return status;
         }
-        status = rung_solve(e, index, streams, 2 * dom->n_orders, azimuth, &dom);
+        int used = orders < dom->n_orders ? orders : dom->n_orders;
+        status = pps_dom_radiance_orders(dom, used, what->at, radiance, &rest);
+        e->info.orders = used;
+        if (status || rest <= 10 * azimuth) {
+            return status;
+        }
     }
-    if (!status) {
-        e->info.orders = dom->n_orders;
-    }
-    return status;
 }
 
 /* The answer of one rung as numbers, and what it used. */
@@ -151,7 +148,8 @@ static pps_status rung_answer(exact *e, int index, int streams, double azimuth,
 
 /* The largest relative difference: radiances against max(value, 1e-3 of the largest),
  * fluxes against themselves. */
-static double difference(const request *what, const double *coarse, const double *fine) {
+static double difference(const request *what, const double *coarse,
+                         const double *fine) {
     double largest = 0, worst = 0;
     for (size_t i = 0; what->at && i < what->n; i++) {
         largest = fmax(largest, fabs(fine[i]));
@@ -262,7 +260,8 @@ const pps_method pps_method_exact = {
     .name = "exact",
     .cost = "eigenproblems per (albedo, g), then microseconds to milliseconds a case",
     .summary = "discrete ordinates (SPP Eq. 7), streams chosen to the tolerance",
-    .limits = "refuses where 256 streams (fluxes: 512) miss the tolerance, as for g > 0.97",
+    .limits =
+        "refuses where 256 streams (fluxes: 512) miss the tolerance, as for g > 0.97",
     .fields = true,
     .fluxes = true,
     .half_space = true,

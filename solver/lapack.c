@@ -34,16 +34,18 @@ void pps_cholesky_solve(int n, const double *factor, int n_rhs, double *b) {
     pps_lower_solve(n, factor, true, n_rhs, b);
 }
 
-void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs, double *b) {
+void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs,
+                     double *b) {
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower,
-                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1, lower,
-                n, b, n);
+                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1,
+                lower, n, b, n);
 }
 
-void pps_lower_times(int n, const double *lower, bool transposed, int n_rhs, double *b) {
+void pps_lower_times(int n, const double *lower, bool transposed, int n_rhs,
+                     double *b) {
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower,
-                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1, lower,
-                n, b, n);
+                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1,
+                lower, n, b, n);
 }
 
 void pps_qr_r(int n, double *a, double *work) {

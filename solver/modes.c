@@ -32,8 +32,8 @@ typedef struct {
 
 static pps_status scratch_alloc(eigen_scratch *s, int n, int n_columns) {
     size_t nn = (size_t)n * (size_t)n, np = (size_t)n * (size_t)n_columns;
-    s->memory = malloc((np + 4 * nn + pps_lapack_work(n) + 3 * (size_t)n) *
-                       sizeof *s->memory);
+    s->memory =
+        malloc((np + 4 * nn + pps_lapack_work(n) + 3 * (size_t)n) * sizeof *s->memory);
     if (!s->memory) {
         return PPS_ERR_MEMORY;
     }
@@ -260,7 +260,8 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
 
 static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
     int rest = d->n_moments - m;
-    *order = (pps_order){.m = m, .n = d->n, .n_even = (rest + 1) / 2, .n_odd = rest / 2};
+    *order =
+        (pps_order){.m = m, .n = d->n, .n_even = (rest + 1) / 2, .n_odd = rest / 2};
     size_t n = (size_t)d->n, even = (size_t)order->n_even, odd = (size_t)order->n_odd;
     order->memory = malloc((n * (2 + even + odd) + 3 * n * n) * sizeof *order->memory);
     order->mode = calloc(n, sizeof *order->mode);
@@ -303,7 +304,8 @@ static pps_status solve_eigenproblem(pps_order *order, const pps_discrete *d,
         }
     }
     build_b(d, m, s);
-    pps_status status = pps_right_singular(n, d->squared, s->b, order->k, s->y, s->work);
+    pps_status status =
+        pps_right_singular(n, d->squared, s->b, order->k, s->y, s->work);
     if (status) {
         return status;
     }

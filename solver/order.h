@@ -38,13 +38,13 @@ double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0);
 
 typedef struct pps_order {
     int m, n, n_even, n_odd;
-    double *k;      /* n eigenvalues */
-    double *gram;   /* G = X^T X, n x n */
-    double *v, *w;  /* moments of the modes, as above */
-    double *flux_s; /* sum_i sqrt(w_i mu_i) X_ij: what psi_j adds to the fluxes */
+    double *k;          /* n eigenvalues */
+    double *gram;       /* G = X^T X, n x n */
+    double *v, *w;      /* moments of the modes, as above */
+    double *flux_s;     /* sum_i sqrt(w_i mu_i) X_ij: what psi_j adds to the fluxes */
     double *even, *odd; /* Cholesky factors of Ae and Ao, of the present thickness */
-    pps_mode *mode; /* n modes of the present beam */
-    double *memory; /* one block that all of the above lie in */
+    pps_mode *mode;     /* n modes of the present beam */
+    double *memory;     /* one block that all of the above lie in */
 } pps_order;
 
 /* modes.c: allocate and solve the eigenproblem of order m. */

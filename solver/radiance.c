@@ -56,8 +56,7 @@ static double single_source(const pps_dom *dom, double mu, double phi) {
         return dom->slab.albedo / dom->stretch * pps_hg(dom->slab.g, x);
     }
     /* The plain discrete problem: sum of strength_l P_l(x), P_l(1) = 1. */
-    return d->albedo / (4 * PI) *
-           pps_legendre_product(d->n_moments, d->strength, x, 1);
+    return d->albedo / (4 * PI) * pps_legendre_product(d->n_moments, d->strength, x, 1);
 }
 
 /* What one call of pps_dom_radiance works with, in one block. */
@@ -83,8 +82,8 @@ static pps_status scratch_alloc(field_scratch *s, const pps_dom *dom,
     *s = (field_scratch){.at = at};
     s->memory[0] = s->ray = malloc((rays + 1) * sizeof *s->ray);
     s->memory[1] = s->depth = malloc((at->n_tau * n + 1) * sizeof *s->depth);
-    s->memory[2] = s->ge = malloc((2 * at->n_mu * n + (size_t)dom->discrete.n_moments) *
-                                  sizeof *s->ge);
+    s->memory[2] = s->ge =
+        malloc((2 * at->n_mu * n + (size_t)dom->discrete.n_moments) * sizeof *s->ge);
     s->memory[3] = s->term = calloc(2 * rays + 1, sizeof *s->term);
     for (int i = 0; i < 4; i++) {
         if (!s->memory[i]) {
@@ -174,8 +173,8 @@ static double azimuth_rest(const field_scratch *s, const double *radiance) {
     return rest;
 }
 
-pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
-                                 double *radiance, double *rest) {
+pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_grid *at,
+                                   double *radiance, double *rest) {
     if (!(dom->mu0 > 0) || !radiance || pps_grid_check(at, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
@@ -186,7 +185,7 @@ pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
     }
     single_scattering(dom, &s, radiance);
     int small_in_a_row = 0, m = 0;
-    for (; m < dom->n_orders && small_in_a_row < 2; m++) {
+    for (; m < n_orders && small_in_a_row < 2; m++) {
         double *swap = s.last_term;
         s.last_term = s.term;
         s.term = swap;
@@ -201,5 +200,5 @@ pps_status pps_dom_radiance_rest(const pps_dom *dom, const pps_grid *at,
 
 pps_status pps_dom_radiance(const pps_dom *dom, const pps_grid *at, double *radiance) {
     double rest;
-    return pps_dom_radiance_rest(dom, at, radiance, &rest);
+    return pps_dom_radiance_orders(dom, dom->n_orders, at, radiance, &rest);
 }

@@ -31,8 +31,8 @@ static pps_status eddington_solve(void *state, double thickness, double mu0) {
     double albedo = d->slab.albedo, g = d->slab.g;
     d->slab.thickness = thickness;
     d->mu0 = mu0;
-    pps_twostream_solve(&d->two, thickness, mu0, 2 * (1 - albedo), 1.5 * (1 - albedo * g),
-                        albedo, 1.5 * albedo * g * mu0);
+    pps_twostream_solve(&d->two, thickness, mu0, 2 * (1 - albedo),
+                        1.5 * (1 - albedo * g), albedo, 1.5 * albedo * g * mu0);
     return PPS_OK;
 }
 
@@ -43,7 +43,8 @@ static double diffuse(const void *solution, const pps_ray *ray, double mu) {
     return sum / (2 * PI) + 3 * d->slab.g * mu * difference / (4 * PI);
 }
 
-static pps_status eddington_radiance(void *state, const pps_grid *at, double *radiance) {
+static pps_status eddington_radiance(void *state, const pps_grid *at,
+                                     double *radiance) {
     const eddington *d = state;
     pps_march march = {
         .slab = d->slab, .mu0 = d->mu0, .diffuse = diffuse, .solution = d};

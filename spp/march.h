@@ -15,7 +15,8 @@
 
 /* The diffuse part of the source integrated along a ray in direction mu, without the
  * factor albedo. */
-typedef double (*pps_march_diffuse)(const void *solution, const pps_ray *ray, double mu);
+typedef double (*pps_march_diffuse)(const void *solution, const pps_ray *ray,
+                                    double mu);
 
 typedef struct pps_march {
     pps_slab slab;
@@ -27,6 +28,7 @@ typedef struct pps_march {
 void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance);
 
 /* Fluxes and mean intensity as hemispheric integrals of that radiance. */
-void pps_march_flux(const pps_march *march, size_t n, const double *tau, pps_flux *flux);
+void pps_march_flux(const pps_march *march, size_t n, const double *tau,
+                    pps_flux *flux);
 
 #endif

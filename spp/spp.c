@@ -160,8 +160,10 @@ static const pps_method_ops printed_ops = {.state_size = sizeof(spp_state),
 const pps_method pps_method_spp = {
     .name = "spp",
     .cost = "two exponentials a depth",
-    .summary = "simplified plane-parallel model (SPP Eq. 19, misprints mended, kappa = 1)",
-    .limits = "same radiance in every direction of a hemisphere; fluence 0.6 of the truth",
+    .summary =
+        "simplified plane-parallel model (SPP Eq. 19, misprints mended, kappa = 1)",
+    .limits =
+        "same radiance in every direction of a hemisphere; fluence 0.6 of the truth",
     .fields = true,
     .fluxes = true,
     .half_space = true,

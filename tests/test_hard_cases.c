@@ -9,8 +9,8 @@
 #include "support/support.h"
 
 /* The plain discrete problem: n_streams moments, no scaling, no correction. */
-static pps_dom *solve(double albedo, double g, double thickness, double mu0, int streams,
-                      int orders) {
+static pps_dom *solve(double albedo, double g, double thickness, double mu0,
+                      int streams, int orders) {
     pps_slab slab = {albedo, g, thickness};
     pps_dom_opts opts = {
         .streams = streams, .delta_m = PPS_DELTA_M_OFF, .orders = orders};
@@ -159,7 +159,8 @@ static void indefinite_expansions_are_refused(void **state) {
     static const struct {
         double g;
         int streams;
-    } cases[] = {{0.95, 8}, {0.95, 16}, {0.99, 8}, {0.99, 64}, {-0.95, 16}, {-0.99, 32}};
+    } cases[] = {{0.95, 8},  {0.95, 16},  {0.99, 8},
+                 {0.99, 64}, {-0.95, 16}, {-0.99, 32}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         pps_slab slab = {1, cases[i].g, 1};
         pps_dom_opts opts = {.streams = cases[i].streams, .delta_m = PPS_DELTA_M_OFF};

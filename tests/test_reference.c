@@ -133,11 +133,14 @@ static void diffusion_exponents_to_10_digits(void **state) {
 /* Conservative thick slabs: T of isotropic illumination is 4/3 / ((1-g) w + 2 q'), and
  * the beam sees (1 + ..)/..: the product of escape functions; here by the ratio of two
  * thicknesses, 1/T linear in w with slope 3 (1-g)/(4 f(mu0)). */
-static void conservative_transmission_falls_as_the_extrapolated_thickness(void **state) {
+static void
+conservative_transmission_falls_as_the_extrapolated_thickness(void **state) {
     (void)state;
     static const struct {
         double g, q;
-    } cases[] = {{0, 0.7104460896}, {0.5, 0.7119556672}, {-0.5, 0.7140753875},
+    } cases[] = {{0, 0.7104460896},
+                 {0.5, 0.7119556672},
+                 {-0.5, 0.7140753875},
                  {0.75, 0.7133632908}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double g = cases[i].g, tau, inverse[2];

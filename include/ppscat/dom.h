@@ -42,11 +42,11 @@ enum { PPS_STREAMS_MAX = 1024 };
 
 /* Zero means default throughout. */
 typedef struct pps_dom_opts {
-    int streams;         /* 2n, even, 2..PPS_STREAMS_MAX; 0 = 32 */
+    int streams; /* 2n, even, 2..PPS_STREAMS_MAX; 0 = 32 */
     pps_nodes nodes;
     pps_delta_m delta_m;
-    int orders;          /* azimuthal orders; 0 = enough for `tolerance`; 1 = fluxes only */
-    double tolerance;    /* of the azimuth series, relative; 0 = 1e-15 */
+    int orders; /* azimuthal orders; 0 = enough for `tolerance`; 1 = fluxes only */
+    double tolerance; /* of the azimuth series, relative; 0 = 1e-15 */
 } pps_dom_opts;
 
 /* What was used; the residuals a user may want to see. */

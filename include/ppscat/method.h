@@ -24,16 +24,16 @@ extern "C" {
 
 /* Zero means default throughout; a method ignores what does not concern it. */
 typedef struct pps_options {
-    int streams;         /* of `exact`; 0 = as many as `tolerance` asks for */
+    int streams; /* of `exact`; 0 = as many as `tolerance` asks for */
     pps_nodes nodes;
     pps_delta_m delta_m;
-    double tolerance;    /* 0 = 1e-6. For a radiance relative to max(its value, 1e-3 of
+    double tolerance; /* 0 = 1e-6. For a radiance relative to max(its value, 1e-3 of
                             the largest of its case); for fluxes relative */
 } pps_options;
 
 /* What a method used for the last output. */
 typedef struct pps_info {
-    int streams, orders;   /* 0 where the method has none */
+    int streams, orders; /* 0 where the method has none */
     pps_nodes nodes;
     bool delta_m;          /* the forward peak was scaled */
     double error_estimate; /* relative, as `tolerance`; NAN where the method has none */

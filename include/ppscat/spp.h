@@ -23,12 +23,12 @@ typedef enum {
 
 /* A solved case: a plain value, a dozen numbers, no memory to free. */
 typedef struct pps_spp {
-    double thickness, q;       /* q = 1/mu0 */
-    double albedo, lambda;     /* lambda: Eq. 17 */
-    double forward, backward;  /* T, R: Eq. 10 at mu0 */
-    double rho;                /* 1/alpha: Eq. 17 */
-    double kappa, b, den;      /* B and Den of the stable form */
-    double q_minus_lambda;     /* without cancellation as albedo -> 0 */
+    double thickness, q;      /* q = 1/mu0 */
+    double albedo, lambda;    /* lambda: Eq. 17 */
+    double forward, backward; /* T, R: Eq. 10 at mu0 */
+    double rho;               /* 1/alpha: Eq. 17 */
+    double kappa, b, den;     /* B and Den of the stable form */
+    double q_minus_lambda;    /* without cancellation as albedo -> 0 */
 } pps_spp;
 
 /* Solve a slab lit along mu0. ARGUMENT when an input is out of range; UNSUPPORTED when

@@ -19,7 +19,8 @@ extern "C" {
     X(PPS_ERR_INDEFINITE,                                                              \
       "the truncated phase function is indefinite on these nodes; "                    \
       "take more streams or scale the forward peak (delta-M)")                         \
-    X(PPS_ERR_TOLERANCE, "the tolerance was not reached with the most streams allowed") \
+    X(PPS_ERR_TOLERANCE,                                                               \
+      "the tolerance was not reached with the most streams allowed")                   \
     X(PPS_ERR_UNSUPPORTED, "the method does not cover this case")
 
 typedef enum {

@@ -14,8 +14,8 @@ void support_assert_close(double got, double want, double rtol, double atol,
     if (error <= rtol * fabs(want) + atol || got == want) {
         return;
     }
-    print_error("%s = %.17g, want %.17g: off by %.3g (relative %.3g)\n", what, got, want,
-                error, error / fabs(want));
+    print_error("%s = %.17g, want %.17g: off by %.3g (relative %.3g)\n", what, got,
+                want, error, error / fabs(want));
     _fail(file, line);
 }
 
