@@ -13,7 +13,7 @@
 #include "core/mode.h"
 #include "core/quadrature.h"
 
-enum { POINTS = 24, HALVINGS = 40 };
+enum { POINTS = 24, HALVINGS = 70 };
 
 /* ---- modes of every kind ---- */
 
@@ -146,25 +146,26 @@ static void both_equations_hold_through_the_slab(void **state) {
 
 /* ---- the edges ---- */
 
-/* What the sources add up to on the way down, and what is left of it at the bottom. */
-static double strength_at_top(const pps_mode *mode) {
-    return fabs(mode->beta) + fabs(mode->alpha) * fmin(mode->w, 1 / mode->q);
-}
+/* The length over which the beam feeds the mode. */
+static double beam_length(const pps_mode *mode) { return fmin(mode->w, 1 / mode->q); }
 
-static double strength_at_bottom(const pps_mode *mode) {
-    return strength_at_top(mode) * exp(-fmin(mode->k, mode->q) * mode->w);
+/* The size of phi at a depth, had nothing cancelled: what the sources add up to, and how
+ * much of it is left. psi is of this size times beam_length. */
+static double strength_at(const pps_mode *mode, double tau) {
+    double fed = fabs(mode->beta) + fabs(mode->alpha) * beam_length(mode);
+    return fed * exp(-fmin(mode->k, mode->q) * tau);
 }
 
 static void check_edges(const pps_mode *mode, double g) {
     double psi, phi;
     pps_mode_state(mode, 0, &psi, &phi);
-    assert_close(g * psi, -phi, 1e-14, 1e-15 * strength_at_top(mode));
+    assert_close(g * psi, -phi, 1e-14, 1e-15 * strength_at(mode, 0));
     if (isinf(mode->w)) {
         assert_close(mode->c2, 0, 0, 0); /* nothing grows */
         return;
     }
     pps_mode_state(mode, mode->w, &psi, &phi);
-    assert_close(g * psi, phi, 1e-13, 1e-15 * strength_at_bottom(mode));
+    assert_close(g * psi, phi, 1e-13, 1e-15 * strength_at(mode, mode->w));
 }
 
 static void nothing_falls_in_at_the_edges(void **state) {
@@ -214,39 +215,41 @@ static void ray_integrals(const pps_mode *mode, double tau, double mu, double *p
     pps_mode_ray(mode, &ray, &at, psi, phi);
 }
 
+/* psi[0] = psi[1] and phi[0] = phi[1], to 1e-12 or the rounding of parts that cancel. */
+static void assert_same(const double psi[2], const double phi[2], double size,
+                        double length) {
+    assert_close(psi[0], psi[1], 1e-12, 1e-15 * size * length);
+    assert_close(phi[0], phi[1], 1e-12, 1e-15 * size);
+}
+
 static void solution_is_continuous_across_kinds(void **state) {
     (void)state;
-    for (int i = 0; i < N_SWITCHES; i++) {
-        for (int s = 0; s < N_SOURCES; s++) {
-            pps_mode here = solve(&switches[i].here, s);
-            pps_mode there = solve(&switches[i].there, s);
-            assert_int_equal(here.kind, switches[i].here.kind);
-            assert_int_equal(there.kind, switches[i].there.kind);
-            for (int d = 0; d < N_SHARES; d++) {
-                double tau = shares[d] * deepest(&there), psi[2], phi[2];
-                pps_mode_state(&here, tau, &psi[0], &phi[0]);
-                pps_mode_state(&there, tau, &psi[1], &phi[1]);
-                assert_close(psi[0], psi[1], 1e-12, 0);
-                assert_close(phi[0], phi[1], 1e-12, 0);
-            }
+    for (int i = 0; i < N_SWITCHES * N_SOURCES; i++) {
+        pps_mode here = solve(&switches[i / N_SOURCES].here, i % N_SOURCES);
+        pps_mode there = solve(&switches[i / N_SOURCES].there, i % N_SOURCES);
+        assert_int_equal(here.kind, switches[i / N_SOURCES].here.kind);
+        assert_int_equal(there.kind, switches[i / N_SOURCES].there.kind);
+        for (int d = 0; d < N_SHARES; d++) {
+            double tau = shares[d] * deepest(&there), psi[2], phi[2];
+            pps_mode_state(&here, tau, &psi[0], &phi[0]);
+            pps_mode_state(&there, tau, &psi[1], &phi[1]);
+            assert_same(psi, phi, strength_at(&there, tau), beam_length(&there));
         }
     }
 }
 
 static void ray_integrals_are_continuous_across_kinds(void **state) {
     (void)state;
-    for (int i = 0; i < N_SWITCHES; i++) {
-        for (int s = 0; s < N_SOURCES; s++) {
-            pps_mode here = solve(&switches[i].here, s);
-            pps_mode there = solve(&switches[i].there, s);
-            for (int d = 0; d < N_SHARES * N_COSINES; d++) {
-                double tau = shares[d / N_COSINES] * deepest(&there), psi[2], phi[2];
-                double mu = cosines[d % N_COSINES];
-                ray_integrals(&here, tau, mu, &psi[0], &phi[0]);
-                ray_integrals(&there, tau, mu, &psi[1], &phi[1]);
-                assert_close(psi[0], psi[1], 1e-12, 0);
-                assert_close(phi[0], phi[1], 1e-12, 0);
-            }
+    for (int i = 0; i < N_SWITCHES * N_SOURCES; i++) {
+        pps_mode here = solve(&switches[i / N_SOURCES].here, i % N_SOURCES);
+        pps_mode there = solve(&switches[i / N_SOURCES].there, i % N_SOURCES);
+        for (int d = 0; d < N_SHARES * N_COSINES; d++) {
+            double tau = shares[d / N_COSINES] * deepest(&there), psi[2], phi[2];
+            double mu = cosines[d % N_COSINES], run = mu > 0 ? tau : here.w - tau;
+            ray_integrals(&here, tau, mu, &psi[0], &phi[0]);
+            ray_integrals(&there, tau, mu, &psi[1], &phi[1]);
+            double share = -expm1(-run / fabs(mu));
+            assert_same(psi, phi, share * strength_at(&there, tau), beam_length(&there));
         }
     }
 }
@@ -254,20 +257,18 @@ static void ray_integrals_are_continuous_across_kinds(void **state) {
 /* ---- ray integrals ---- */
 
 typedef struct {
+    double node[POINTS], weight[POINTS];
     double psi, phi, psi_size, phi_size;
 } ray_sums;
 
-/* A Gauss panel of c f(t) e^(-c |tau - t|) over t = from .. to. */
-static void add_panel(const pps_mode *mode, double tau, double c, double from,
-                      double to, ray_sums *sum) {
-    static double node[POINTS], weight[POINTS];
-    if (node[0] == 0) {
-        pps_gauss_unit(POINTS, node, weight);
-    }
+/* A Gauss panel of c f(t) e^(-c s), t = tau - side s, over s between two distances. */
+static void add_panel(const pps_mode *mode, const pps_ray *ray, double from, double to,
+                      ray_sums *sum) {
+    double width = fabs(to - from), side = ray->down ? 1 : -1;
     for (int i = 0; i < POINTS; i++) {
-        double t = from + (to - from) * node[i], psi, phi;
-        double kernel = fabs(to - from) * weight[i] * c * exp(-c * fabs(tau - t));
-        pps_mode_state(mode, t, &psi, &phi);
+        double s = from + (to - from) * sum->node[i], psi, phi;
+        double kernel = width * sum->weight[i] * ray->c * exp(-ray->c * s);
+        pps_mode_state(mode, ray->tau - side * s, &psi, &phi);
         sum->psi += kernel * psi;
         sum->phi += kernel * phi;
         sum->psi_size += kernel * fabs(psi);
@@ -276,26 +277,31 @@ static void add_panel(const pps_mode *mode, double tau, double c, double from,
 }
 
 /* Panels that halve towards `at`, so that an exponential of any rate is resolved. */
-static void add_graded(const pps_mode *mode, double tau, double c, double at, double to,
+static void add_graded(const pps_mode *mode, const pps_ray *ray, double at, double to,
                        ray_sums *sum) {
     double far = to - at;
     for (int panel = 0; panel <= HALVINGS; panel++) {
         double near = panel < HALVINGS ? far / 2 : 0;
-        add_panel(mode, tau, c, at + near, at + far, sum);
+        add_panel(mode, ray, at + near, at + far, sum);
         far = near;
     }
 }
 
 static void check_ray(const pps_mode *mode, double tau, double mu) {
-    double c = 1 / fabs(mu), psi, phi;
-    double edge = mu > 0 ? 0 : fmin(mode->w, tau + 50 / c), middle = (tau + edge) / 2;
+    pps_ray ray;
+    pps_ray_init(&ray, mode->w, mode->q, tau, mu);
+    double run = mu > 0 ? tau : fmin(mode->w - tau, 50 / ray.c), psi, phi;
     ray_sums sum = {0};
-    add_graded(mode, tau, c, tau, middle, &sum);
-    add_graded(mode, tau, c, edge, middle, &sum);
+    pps_gauss_unit(POINTS, sum.node, sum.weight);
+    add_graded(mode, &ray, 0, run / 2, &sum);
+    add_graded(mode, &ray, run, run / 2, &sum);
     ray_integrals(mode, tau, mu, &psi, &phi);
-    double rounding = 1e-14 + (mode->k + mode->q) * tau * DBL_EPSILON;
-    assert_close(psi, sum.psi, 0, rounding * sum.psi_size);
-    assert_close(phi, sum.phi, 0, rounding * sum.phi_size);
+    double exponents = (mode->k + mode->q) * tau * DBL_EPSILON;
+    double beam = strength_at(mode, tau) * -expm1(-ray.c * run);
+    double parts = (1e-15 + exponents) * (beam + mode->k * sum.psi_size);
+    assert_close(psi, sum.psi, 0,
+                 (1e-14 + exponents) * sum.psi_size + parts * beam_length(mode));
+    assert_close(phi, sum.phi, 0, (1e-14 + exponents) * sum.phi_size + parts);
 }
 
 static void check_rays(const pps_mode *mode, double g) {

@@ -1,0 +1,84 @@
+/* The columns that each subcommand prints. Their names are a contract with scripts.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "columns.h"
+
+#include <stddef.h>
+
+/* clang-format off */
+#define CASE_COLUMNS                                                                    \
+    {"method", "string", NULL, "name of the method"},                                   \
+    {"albedo", "double", "1", "single-scattering albedo"},                              \
+    {"g", "double", "1", "asymmetry of the Henyey-Greenstein phase function"},          \
+    {"thickness", "double", "1", "optical thickness; inf is a half-space"},             \
+    {"mu0", "double", "1", "cosine of the beam's angle of incidence"}
+
+static const column methods_columns[] = {
+    {"name", "string", NULL, "name, as --method takes it"},
+    {"cost", "string", NULL, "what one more case costs"},
+    {"fields", "boolean", NULL, "gives radiances"},
+    {"fluxes", "boolean", NULL, "gives fluxes"},
+    {"thickness_inf", "boolean", NULL, "covers the half-space"},
+    {"summary", "string", NULL, "what it is"},
+    {"limits", "string", NULL, "where it is wrong or refuses"},
+    {0}};
+
+static const column field_columns[] = {
+    CASE_COLUMNS,
+    {"depth", "double", "1", "optical depth below the lit side"},
+    {"mu", "double", "1", "cosine of the direction; above 0 goes down"},
+    {"phi", "double", "degree", "azimuth of the direction, 0 is the beam's own"},
+    {"radiance", "double", "1/sr",
+     "diffuse radiance, without the beam, in units of the beam's irradiance for --beam 1"},
+    {0}};
+
+static const column flux_columns[] = {
+    CASE_COLUMNS,
+    {"depth", "double", "1", "optical depth below the lit side"},
+    {"flux_up", "double", "1",
+     "diffuse flux upward through a horizontal surface; irradiance of the beam = 1"},
+    {"flux_down", "double", "1", "diffuse flux downward through a horizontal surface"},
+    {"flux_direct", "double", "1", "flux of the beam through a horizontal surface"},
+    {"mean_intensity_diffuse", "double", "1/sr",
+     "integral of the diffuse radiance over the sphere, divided by 4 pi"},
+    {"mean_intensity", "double", "1/sr", "the same with the beam"},
+    {0}};
+
+static const column error_columns[] = {
+    CASE_COLUMNS,
+    {"rms_abs", "double", "1/sr",
+     "root mean square difference of radiance over directions and depths"},
+    {"rms_rel", "double", "1",
+     "mean over depths of the root mean square difference / mean exact radiance"},
+    {"max_abs", "double", "1/sr", "largest difference of radiance"},
+    {"reflectance_error", "double", "1",
+     "relative error of the diffuse upward flux at depth 0"},
+    {"transmittance_error", "double", "1",
+     "relative error of the diffuse downward flux at the bottom; empty for a half-space"},
+    {"seconds", "double", "s",
+     "time to solve this case and evaluate its radiances; differs from run to run"},
+    {0}};
+
+static const column table_columns[] = {
+    {"table", "integer", "1", "number of the table in the paper"},
+    {"row", "string", NULL, "row of the table: the albedo, or total"},
+    {"column", "string", NULL,
+     "column of the table; S. is the simplified solution, R. the refined one"},
+    {"paper", "double", "%", "the printed root mean square error"},
+    {"ours", "double", "%",
+     "the same measured here, in percent of the beam's irradiance per steradian"},
+    {"rms_rel", "double", "%",
+     "mean over angles and depths of the root mean square error / mean exact radiance"},
+    {"method", "string", NULL, "name of the method measured"},
+    {0}};
+/* clang-format on */
+
+const column *columns_of(subcommand_id subcommand) {
+    static const column *const tables[SUB_COUNT] = {
+        [SUB_METHODS] = methods_columns, [SUB_FIELD] = field_columns,
+        [SUB_FLUX] = flux_columns,       [SUB_ERROR] = error_columns,
+        [SUB_TABLE] = table_columns,
+    };
+
+    return tables[subcommand];
+}

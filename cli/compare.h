@@ -1,0 +1,31 @@
+/* Methods against `exact`: what `error` and `table` print.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_CLI_COMPARE_H
+#define PPSCAT_CLI_COMPARE_H
+
+#include "grid.h"
+#include "output.h"
+
+/* One method on one case, for a beam of unit irradiance. NAN is a value that has no
+ * meaning: relative to nothing, transmittance of a half-space, fluxes of a method that
+ * gives none. */
+typedef struct {
+    const pps_method *refused_by; /* the method or the reference; NULL when compared */
+    const char *refusal;          /* static text: why */
+    double mean_square; /* of the radiance difference, over depths, directions */
+    double rms_rel;     /* mean over depths of rms difference / mean exact radiance */
+    double max_abs;     /* largest radiance difference */
+    double reflectance_error, transmittance_error; /* relative, without sign */
+    double seconds;                                /* to solve and evaluate radiances */
+} comparison;
+
+/* Compare every method of a GRID_ERROR grid with `exact` on every case. result has room
+ * for all of them, in the order of rows: method, albedo, g, thickness, mu0. What was
+ * used goes into the record of `out`. */
+int compare_run(const case_grid *grid, output *out, comparison *result);
+
+/* How many results there are. */
+size_t compare_count(const case_grid *grid);
+
+#endif

@@ -1,0 +1,351 @@
+/* From options to the case grid, with every check that can be made before computing.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "grid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <omp.h>
+
+#include "cli.h"
+#include "csv.h"
+#include "directions.h"
+#include "values.h"
+
+enum {
+    DEFAULT_NODES = 8,   /* Gauss nodes a hemisphere: --mu */
+    ERROR_NODES = 16,    /* the same for `error` */
+    ERROR_AZIMUTHS = 19, /* every 10 degrees */
+    MAX_THREADS = 4096
+};
+
+static const double error_depth_cap = 10;
+static const char error_depths[] = "0%,5%,10%,20%,30%,40%,50%,60%,75%,90%,100%";
+
+static int read_list(const invocation *call, option_id id, number_list *out) {
+    return value_list(id, option_text(call, id), out);
+}
+
+/* An angle's option, or the cosine's. */
+static int read_cosines(const invocation *call, option_id angle, option_id cosine,
+                        number_list *out) {
+    int rc;
+
+    if (option_given(call, angle) && option_given(call, cosine))
+        return cli_usage(
+            "--%s '%.60s' and --%s '%.60s' contradict each other; allowed: "
+            "one of them",
+            option_table[cosine].name, call->text[cosine], option_table[angle].name,
+            call->text[angle]);
+    if (!option_given(call, angle))
+        return read_list(call, cosine, out);
+    rc = read_list(call, angle, out);
+    for (size_t i = 0; i < out->n; i++)
+        out->value[i] = cos_degrees(out->value[i]);
+    return rc;
+}
+
+/* ---- methods ---- */
+
+/* No such method: say which there are. */
+static int refuse_method(const char *name) {
+    size_t n, length = 0;
+    const pps_method *const *table = pps_method_table(&n);
+    const char **names = malloc(n * sizeof(char *)), *closest;
+    char all[512] = "";
+
+    if (!names)
+        return cli_no_memory();
+    for (size_t i = 0; i < n; i++) {
+        names[i] = table[i]->name;
+        if (length < sizeof all)
+            length += (size_t)snprintf(all + length, sizeof all - length, "%s%s",
+                                       i ? ", " : "", names[i]);
+    }
+    closest = cli_closest(name, n, names);
+    free(names);
+    return cli_usage("--method: unknown method '%.60s'; %s%s%sallowed: %s", name,
+                     closest ? "did you mean '" : "", closest ? closest : "",
+                     closest ? "'? " : "", all);
+}
+
+static int read_methods(const invocation *call, case_grid *grid) {
+    const char *at = option_text(call, OPT_METHOD);
+    size_t room = 1;
+
+    for (const char *c = at; *c; c++)
+        room += *c == ',';
+    /* an array of pointers: NOLINTNEXTLINE(bugprone-sizeof-expression) */
+    grid->method = malloc(room * sizeof *grid->method);
+    if (!grid->method)
+        return cli_no_memory();
+    for (; grid->n_methods < room; grid->n_methods++) {
+        char name[64];
+        size_t length = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(length < 64 ? length : 63), at);
+        grid->method[grid->n_methods] = pps_method_find(name);
+        if (!grid->method[grid->n_methods])
+            return refuse_method(name);
+        at += length + 1;
+    }
+    return CLI_DONE;
+}
+
+/* ---- depths ---- */
+
+/* The depth that item i of a list means in a slab; shares are of min(thickness, cap). */
+static int resolve_depth(const number_list *list, size_t i, double thickness,
+                         double cap, double *tau) {
+    char x[CSV_NUMBER_SIZE], w[CSV_NUMBER_SIZE], what[160];
+
+    csv_format(list->value[i], x);
+    csv_format(thickness, w);
+    *tau = list->value[i];
+    if (list->share[i] && isinf(fmin(thickness, cap))) {
+        snprintf(what, sizeof what, "'%s%%' is no share of --thickness inf", x);
+        return value_refuse(OPT_DEPTH, what);
+    }
+    if (list->share[i])
+        *tau = list->value[i] / 100 * fmin(thickness, cap);
+    if (*tau > thickness) {
+        snprintf(what, sizeof what, "'%s' is beyond --thickness '%s'", x, w);
+        return value_refuse(OPT_DEPTH, what);
+    }
+    return CLI_DONE;
+}
+
+static int resolve_depths(case_grid *grid, const number_list *list, size_t i_thickness,
+                          double cap) {
+    depth_list *depth = &grid->depth[i_thickness];
+
+    depth->tau = malloc(list->n * sizeof *depth->tau);
+    if (!depth->tau)
+        return cli_no_memory();
+    depth->n = list->n;
+    if (depth->n > grid->max_depths)
+        grid->max_depths = depth->n;
+    for (size_t i = 0; i < list->n; i++) {
+        int rc = resolve_depth(list, i, grid->thickness.value[i_thickness], cap,
+                               &depth->tau[i]);
+        if (rc != CLI_DONE)
+            return rc;
+    }
+    return CLI_DONE;
+}
+
+/* The list of depths for a slab as text; what the option's default means. */
+static const char *depth_text(const invocation *call, grid_kind kind,
+                              double thickness) {
+    if (option_given(call, OPT_DEPTH))
+        return call->text[OPT_DEPTH];
+    if (kind == GRID_ERROR)
+        return error_depths;
+    return isinf(thickness) ? "0" : "0,50%,100%";
+}
+
+static int read_depths(const invocation *call, grid_kind kind, case_grid *grid) {
+    double cap = INFINITY;
+    size_t n = grid->thickness.n;
+
+    if (kind == GRID_ERROR && !option_given(call, OPT_DEPTH))
+        cap = error_depth_cap;
+    grid->depth = calloc(n, sizeof *grid->depth);
+    if (!grid->depth)
+        return cli_no_memory();
+    for (size_t i = 0; i < n; i++) {
+        number_list list;
+        const char *text = depth_text(call, kind, grid->thickness.value[i]);
+        int rc = value_list(OPT_DEPTH, text, &list);
+        if (rc == CLI_DONE)
+            rc = resolve_depths(grid, &list, i, cap);
+        list_free(&list);
+        if (rc != CLI_DONE)
+            return rc;
+    }
+    return CLI_DONE;
+}
+
+/* ---- directions ---- */
+
+static int allocate(size_t n, number_list *list, double **weight) {
+    free(list->value);
+    list->value = malloc(n * sizeof *list->value);
+    list->n = list->value ? n : 0;
+    free(*weight);
+    *weight = malloc(n * sizeof **weight);
+    return list->value && *weight ? CLI_DONE : cli_no_memory();
+}
+
+static int equal_weights(size_t n, double **weight) {
+    *weight = malloc(n * sizeof **weight);
+    if (!*weight)
+        return cli_no_memory();
+    for (size_t i = 0; i < n; i++)
+        (*weight)[i] = 1 / (double)n;
+    return CLI_DONE;
+}
+
+static int read_cosines_of_travel(const invocation *call, grid_kind kind,
+                                  case_grid *grid) {
+    size_t n = kind == GRID_ERROR ? ERROR_NODES : DEFAULT_NODES;
+    int rc;
+
+    if (option_given(call, OPT_MU) || option_given(call, OPT_THETA)) {
+        rc = read_cosines(call, OPT_THETA, OPT_MU, &grid->mu);
+        return rc == CLI_DONE ? equal_weights(grid->mu.n, &grid->mu_weight) : rc;
+    }
+    rc = allocate(2 * n, &grid->mu, &grid->mu_weight);
+    if (rc == CLI_DONE)
+        gauss_sphere(n, grid->mu.value, grid->mu_weight);
+    return rc;
+}
+
+static int read_azimuths(const invocation *call, grid_kind kind, case_grid *grid) {
+    int rc;
+
+    if (option_given(call, OPT_PHI) || kind == GRID_FIELD) {
+        rc = read_list(call, OPT_PHI, &grid->phi);
+        return rc == CLI_DONE ? equal_weights(grid->phi.n, &grid->phi_weight) : rc;
+    }
+    rc = allocate(ERROR_AZIMUTHS, &grid->phi, &grid->phi_weight);
+    if (rc == CLI_DONE)
+        even_azimuths(ERROR_AZIMUTHS, grid->phi.value, grid->phi_weight);
+    return rc;
+}
+
+/* ---- all of it ---- */
+
+static int read_lists(const invocation *call, grid_kind kind, case_grid *grid) {
+    int rc = read_methods(call, grid);
+
+    if (rc == CLI_DONE)
+        rc = read_list(call, OPT_ALBEDO, &grid->albedo);
+    if (rc == CLI_DONE)
+        rc = read_list(call, OPT_G, &grid->g);
+    if (rc == CLI_DONE)
+        rc = read_list(call, OPT_THICKNESS, &grid->thickness);
+    if (rc == CLI_DONE)
+        rc = read_cosines(call, OPT_THETA0, OPT_MU0, &grid->mu0);
+    if (rc == CLI_DONE)
+        rc = read_depths(call, kind, grid);
+    if (rc == CLI_DONE)
+        rc = read_cosines_of_travel(call, kind, grid);
+    return rc == CLI_DONE ? read_azimuths(call, kind, grid) : rc;
+}
+
+static int read_light(const invocation *call, case_grid *grid) {
+    double sky, ground;
+    int rc = value_number(call, OPT_BEAM, &grid->beam);
+
+    if (rc == CLI_DONE)
+        rc = value_number(call, OPT_SKY, &sky);
+    if (rc == CLI_DONE)
+        rc = value_number(call, OPT_GROUND, &ground);
+    if (rc != CLI_DONE)
+        return rc;
+    if (ground > 0)
+        grid->refusal = "a ground that reflects (--ground above 0) is not computed yet";
+    if (sky > 0)
+        grid->refusal = "light from the sky (--sky above 0) is not computed yet";
+    return CLI_DONE;
+}
+
+static int read_streams(const invocation *call, int *out) {
+    const char *text = option_text(call, OPT_STREAMS);
+
+    *out = 0;
+    if (strcmp(text, "auto") == 0)
+        return CLI_DONE;
+    if (!value_whole(text, 2, PPS_STREAMS_MAX, out) || *out % 2)
+        return cli_usage(
+            "--streams: '%.60s' is not possible; allowed: even numbers from "
+            "2 to %d, or auto",
+            text, PPS_STREAMS_MAX);
+    return CLI_DONE;
+}
+
+static int read_solver(const invocation *call, pps_options *options) {
+    int nodes = 0, delta_m = 0, rc = value_number(call, OPT_TOL, &options->tolerance);
+
+    if (rc == CLI_DONE)
+        rc = read_streams(call, &options->streams);
+    if (rc == CLI_DONE)
+        rc = value_choice(call, OPT_NODES, &nodes);
+    if (rc == CLI_DONE)
+        rc = value_choice(call, OPT_DELTA_M, &delta_m);
+    options->nodes = (pps_nodes)nodes;
+    options->delta_m = (pps_delta_m)delta_m;
+    if (rc == CLI_DONE && options->delta_m == PPS_DELTA_M_OFF &&
+        options->nodes == PPS_NODES_MAPPED)
+        return cli_usage("--nodes 'mapped' contradicts --delta-m 'off', the plain "
+                         "discrete problem on Gauss nodes; allowed: gauss, auto");
+    return rc;
+}
+
+static int read_threads(const invocation *call, int *out) {
+    const char *text = call->text[OPT_JOBS];
+
+    *out = omp_get_num_procs();
+    if (text && !value_whole(text, 1, MAX_THREADS, out))
+        return cli_usage(
+            "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 "
+            "to %d",
+            text, MAX_THREADS);
+    return CLI_DONE;
+}
+
+static int read_running(const invocation *call, case_grid *grid) {
+    int progress = 0, rc = read_threads(call, &grid->threads);
+
+    if (rc == CLI_DONE)
+        rc = value_choice(call, OPT_PROGRESS, &progress);
+    grid->progress = progress == 0 ? isatty(STDERR_FILENO) : progress == 1;
+    if (rc == CLI_DONE && option_given(call, OPT_RESUME))
+        return cli_usage("--resume is not there yet; run without it");
+    return rc;
+}
+
+/* Every count that follows is a size_t; this keeps their products in range. */
+static int check_size(const case_grid *grid) {
+    double rows = (double)grid->n_methods * (double)grid->albedo.n * (double)grid->g.n *
+                  (double)grid->thickness.n * (double)grid->mu0.n *
+                  (double)grid->max_depths * (double)grid->mu.n * (double)grid->phi.n;
+
+    if (rows > 1e15)
+        return cli_usage("the lists ask for %.1e rows; allowed: up to 1e15", rows);
+    return CLI_DONE;
+}
+
+int grid_init(case_grid *grid, const invocation *call, grid_kind kind) {
+    int rc;
+
+    *grid = (case_grid){0};
+    rc = read_lists(call, kind, grid);
+    if (rc == CLI_DONE)
+        rc = read_light(call, grid);
+    if (rc == CLI_DONE)
+        rc = read_solver(call, &grid->options);
+    if (rc == CLI_DONE)
+        rc = read_running(call, grid);
+    return rc == CLI_DONE ? check_size(grid) : rc;
+}
+
+void grid_free(case_grid *grid) {
+    for (size_t i = 0; grid->depth && i < grid->thickness.n; i++)
+        free(grid->depth[i].tau);
+    free(grid->depth);
+    free(grid->method);
+    list_free(&grid->albedo);
+    list_free(&grid->g);
+    list_free(&grid->thickness);
+    list_free(&grid->mu0);
+    list_free(&grid->mu);
+    list_free(&grid->phi);
+    free(grid->mu_weight);
+    free(grid->phi_weight);
+    *grid = (case_grid){0};
+}

@@ -1,0 +1,215 @@
+/* The sidecar of a CSV file, by the W3C recommendation "Metadata Vocabulary for Tabular
+ * Data". What the vocabulary has no word for goes under its property `notes`.
+ *
+ * Jansson's json_pack gives NULL when a part is NULL, so one check at the end finds
+ * every failed allocation.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "metadata.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+#include "cli.h"
+#include "columns.h"
+
+static bool same_setting(const used_count *count, const pps_method *method,
+                         const pps_info *info) {
+    return count->method == method && count->streams == info->streams &&
+           count->nodes == info->nodes && count->delta_m == info->delta_m;
+}
+
+static void widen(used_log *log, const pps_info *info) {
+    if (log->n == 0 || info->orders < log->min_orders)
+        log->min_orders = info->orders;
+    if (log->n == 0 || info->orders > log->max_orders)
+        log->max_orders = info->orders;
+    if (!isnan(info->error_estimate)) {
+        log->worst_error = fmax(log->worst_error, info->error_estimate);
+        log->estimated = true;
+    }
+}
+
+int used_add(used_log *log, const pps_method *method, const pps_info *info) {
+    used_count *count;
+
+    if (info->streams == 0)
+        return CLI_DONE;
+    widen(log, info);
+    for (size_t i = 0; i < log->n; i++) {
+        if (same_setting(&log->count[i], method, info)) {
+            log->count[i].outputs++;
+            return CLI_DONE;
+        }
+    }
+    count = realloc(log->count, (log->n + 1) * sizeof *count);
+    if (!count)
+        return cli_no_memory();
+    log->count = count;
+    count[log->n++] =
+        (used_count){method, info->streams, info->nodes, info->delta_m, 1};
+    return CLI_DONE;
+}
+
+void used_free(used_log *log) {
+    free(log->count);
+    *log = (used_log){0};
+}
+
+/* A file name or argument need not be UTF-8, JSON must be. */
+static json_t *json_text(const char *text) {
+    json_t *json = json_string(text);
+    size_t size = strlen(text) + 1;
+    char *plain = json ? NULL : malloc(size);
+
+    if (plain) {
+        memcpy(plain, text, size);
+        for (char *c = plain; *c; c++) {
+            if ((unsigned char)*c >= 0x80)
+                *c = '?';
+        }
+        json = json_string(plain);
+        free(plain);
+    }
+    return json;
+}
+
+static json_t *json_columns(const column *columns) {
+    json_t *array = json_array();
+
+    for (; columns->name; columns++) {
+        json_t *entry = json_pack(
+            "{s:s, s:s, s:s, s:s}", "name", columns->name, "titles", columns->name,
+            "datatype", columns->datatype, "dc:description", columns->description);
+        if (columns->unit)
+            json_object_set_new(entry, "schema:unitText", json_string(columns->unit));
+        json_array_append_new(array, entry);
+    }
+    return array;
+}
+
+static json_t *json_command(const invocation *call) {
+    json_t *array = json_array();
+
+    for (int i = 0; i < call->argc; i++)
+        json_array_append_new(array, json_text(i ? call->argv[i] : "ppscat"));
+    return array;
+}
+
+static const char *nodes_name(pps_nodes nodes) {
+    static const char *const names[] = {
+        [PPS_NODES_AUTO] = "auto",
+        [PPS_NODES_GAUSS] = "gauss",
+        [PPS_NODES_MAPPED] = "mapped",
+    };
+
+    return names[nodes];
+}
+
+/* Append a word that the array does not hold yet. */
+static void add_word(json_t *words, const char *word) {
+    for (size_t i = 0; i < json_array_size(words); i++) {
+        if (strcmp(json_string_value(json_array_get(words, i)), word) == 0)
+            return;
+    }
+    json_array_append_new(words, json_string(word));
+}
+
+/* Streams, orders, nodes and scaling over all outputs of the run. */
+static json_t *json_used(const used_log *log) {
+    json_t *counts = json_array(), *nodes = json_array(), *scaled = json_array();
+    json_t *worst = log->estimated ? json_real(log->worst_error) : NULL;
+    int lo = log->count[0].streams, hi = lo;
+
+    for (size_t i = 0; i < log->n; i++) {
+        const used_count *count = &log->count[i];
+        json_int_t outputs = (json_int_t)count->outputs;
+        const char *name = nodes_name(count->nodes);
+        lo = count->streams < lo ? count->streams : lo;
+        hi = count->streams > hi ? count->streams : hi;
+        add_word(nodes, name);
+        add_word(scaled, count->delta_m ? "on" : "off");
+        json_array_append_new(
+            counts, json_pack("{s:s, s:i, s:s, s:b, s:I}", "method",
+                              count->method->name, "streams", count->streams, "nodes",
+                              name, "delta_m", count->delta_m, "outputs", outputs));
+    }
+    return json_pack("{s:{s:i, s:i}, s:{s:i, s:i}, s:o, s:o, s:o, s:o}", "streams",
+                     "min", lo, "max", hi, "orders", "min", log->min_orders, "max",
+                     log->max_orders, "nodes", nodes, "delta_m", scaled,
+                     "worst_error_estimate", worst ? worst : json_null(), "counts",
+                     counts);
+}
+
+static void iso_date(char *text, size_t size) {
+    time_t now = time(NULL);
+    struct tm utc;
+
+    text[0] = '\0';
+    if (gmtime_r(&now, &utc))
+        strftime(text, size, "%Y-%m-%dT%H:%M:%SZ", &utc);
+}
+
+static json_t *json_sidecar(const char *csv_path, const invocation *call,
+                            const used_log *used, size_t rows, size_t refused_rows) {
+    const char *slash = strrchr(csv_path, '/');
+    char date[32], creator[64];
+    json_t *notes;
+
+    iso_date(date, sizeof date);
+    snprintf(creator, sizeof creator, "ppscat %s", pps_version());
+    notes = json_pack(
+        "{s:s, s:s, s:s, s:o, s:s, s:I, s:I, s:o}", "program", "ppscat", "version",
+        pps_version(), "subcommand", subcommand_table[call->subcommand].name, "command",
+        json_command(call), "date", date, "rows", (json_int_t)rows, "refused_rows",
+        (json_int_t)refused_rows, "used", used->n ? json_used(used) : json_null());
+    return json_pack("{s:s, s:o, s:s, s:s, s:{s:o}, s:[o]}", "@context",
+                     "http://www.w3.org/ns/csvw", "url",
+                     json_text(slash ? slash + 1 : csv_path), "dc:creator", creator,
+                     "dc:date", date, "tableSchema", "columns",
+                     json_columns(columns_of(call->subcommand)), "notes", notes);
+}
+
+/* Write to `part`, then give it its name. */
+static int write_json(const json_t *json, const char *part, const char *path) {
+    FILE *file = fopen(part, "w");
+    bool good;
+
+    if (!file)
+        return cli_failed("cannot write '%.200s': %s", part, strerror(errno));
+    good = json_dumpf(json, file, JSON_INDENT(2) | JSON_PRESERVE_ORDER) == 0;
+    good = fputc('\n', file) != EOF && good;
+    good = fclose(file) == 0 && good;
+    if (good && rename(part, path) == 0)
+        return CLI_DONE;
+    cli_failed("cannot write '%.200s': %s", path, strerror(errno));
+    unlink(part);
+    return CLI_FAILED;
+}
+
+int metadata_write(const char *csv_path, const invocation *call, const used_log *used,
+                   size_t rows, size_t refused_rows) {
+    size_t size = strlen(csv_path) + sizeof "-metadata.json.part";
+    char *path = malloc(size), *part = malloc(size);
+    json_t *json = json_sidecar(csv_path, call, used, rows, refused_rows);
+    int rc;
+
+    if (path && part && json) {
+        snprintf(path, size, "%s-metadata.json", csv_path);
+        snprintf(part, size, "%s-metadata.json.part", csv_path);
+        rc = write_json(json, part, path);
+    } else {
+        rc = cli_no_memory();
+    }
+    json_decref(json);
+    free(part);
+    free(path);
+    return rc;
+}

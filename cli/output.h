@@ -1,0 +1,40 @@
+/* What a run leaves: a CSV file or standard output, its sidecar, and the refused rows.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_CLI_OUTPUT_H
+#define PPSCAT_CLI_OUTPUT_H
+
+#include "csv.h"
+#include "metadata.h"
+#include "options.h"
+
+/* Rows that one method refused for one reason. */
+typedef struct {
+    const pps_method *method;
+    const char *reason;
+    size_t rows;
+} refused_count;
+
+typedef struct {
+    csv_file csv;
+    const invocation *call;
+    used_log used;
+    size_t n_refusals;
+    refused_count *refusals;
+    size_t rows, refused_rows;
+} output;
+
+/* Open what -o names and write the header row. CLI_USAGE where it cannot be written. */
+int output_open(output *out, const invocation *call);
+
+/* End a row; with a reason (static text), one that the method refused. */
+int output_end_row(output *out, const pps_method *method, const char *reason);
+
+/* Note what a method used for an output. */
+int output_used(output *out, const pps_method *method, const pps_info *info);
+
+/* Finish with rc, the outcome so far: report refusals, write the sidecar, name the file.
+ * Returns the exit code. Nothing is left under the final name unless all went well. */
+int output_close(output *out, int rc);
+
+#endif

@@ -1,0 +1,28 @@
+/* Reading the text of one option: numbers within their range, words, whole numbers.
+ *
+ * Every function that returns int gives CLI_USAGE, after one line that names the option,
+ * the value and what is allowed, where the text is wrong.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_CLI_VALUES_H
+#define PPSCAT_CLI_VALUES_H
+
+#include "list.h"
+#include "options.h"
+
+/* A list of numbers, each allowed for the option; free it in every case. */
+int value_list(option_id id, const char *text, number_list *out);
+
+/* One number allowed for the option. */
+int value_number(const invocation *call, option_id id, double *out);
+
+/* Which of the words in the option's metavar was given: 0, 1, .. */
+int value_choice(const invocation *call, option_id id, int *out);
+
+/* A whole number from lo to hi, in digits only. */
+bool value_whole(const char *text, long lo, long hi, int *out);
+
+/* Say what is wrong with a number's option, and what is allowed; CLI_USAGE. */
+int value_refuse(option_id id, const char *what);
+
+#endif

@@ -1,0 +1,33 @@
+# What every figure shares: the terminal, the CSV dialect, one colour a method.
+#
+# A figure is drawn from this folder:  gnuplot -c figure2.gp figure2.csv figure2.png
+
+set encoding utf8
+set datafile separator ','
+set datafile columnheaders
+set datafile missing NaN
+
+# The colours of Okabe and Ito, which people with any colour vision tell apart;
+# dashes where curves lie on each other.
+colour(method) = method eq "exact"       ? 0x000000 : \
+                 method eq "spp"         ? 0xD55E00 : \
+                 method eq "spp-printed" ? 0xE69F00 : \
+                 method eq "spp-refined" ? 0x0072B2 : \
+                 method eq "single"      ? 0xCC79A7 : \
+                 method eq "hemispheric" ? 0x009E73 : \
+                 method eq "eddington"   ? 0x56B4E9 : 0x999999
+dash(method) = method eq "spp-printed" ? 4 : method eq "single" ? 3 : \
+               method eq "hemispheric" ? 2 : 1
+
+# canvas(width, height) in pixels, as a macro: `@canvas 1200,800`.
+canvas = 'set terminal pngcairo enhanced font "DejaVu Sans,12" linewidth 1.4 background rgb "white" size'
+
+set style line 100 linecolor rgb "#d0d0d0" linewidth 0.6
+set border linecolor rgb "#606060"
+set tics textcolor rgb "#303030"
+
+# Rows of the CSV that belong to a curve; the others become NaN, that is, missing.
+near(column_name, x) = abs(column(column_name) - x) <= 1e-9 * (1 + abs(x))
+
+# In a multiplot: a last, empty plot along the lower edge that holds the legend.
+legend_below = 'reset; set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 0.07; unset border; unset tics; set xrange [0:1]; set yrange [0:1]; set key center center horizontal font ",13" samplen 3 width 1'

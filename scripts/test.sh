@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Build and test: the sanitizers first, then the plain build.
+# Usage: scripts/test.sh [--all]        --all adds the slow tests
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+select=(--label-exclude slow)
+packages=("${build_packages[@]}" clang-format)
+case "$#:${1-}" in
+0:) ;;
+1:--all) select=() packages+=(gnuplot-nox fonts-dejavu-core) ;;
+*) die "usage: scripts/test.sh [--all]" ;;
+esac
+
+need "${packages[@]}"
+for preset in asan dev; do
+    configure "$preset"
+    cmake --build --preset "$preset"
+    ctest --preset "$preset" "${select[@]}"
+done
