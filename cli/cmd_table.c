@@ -1,7 +1,7 @@
 /* ppscat table N: tables of the SPP paper (2013), the printed figure beside ours.
  *
  * A table is a run of `error` and a choice from its results. The paper does not define
- * its sampling; that of `error` fits its refined columns best (docs/theory.md).
+ * its sampling; that of `error` was found by fitting the refined columns of Table 1.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "commands.h"

@@ -85,6 +85,9 @@ double pps_exp3(double t, double a, double b, double c, double d) {
     sort2(&a, &c);
     sort2(&b, &d);
     sort2(&b, &c);
+    if (isinf(t)) {
+        return a > 0 ? 0 : 1 / (b * c * d);
+    }
     double x[3] = {(b - a) * t, (c - a) * t, (d - a) * t};
     if (x[2] < SERIES_SPREAD) {
         return t * t * t * exp(-a * t) * series(3, x);

@@ -46,7 +46,7 @@ double pps_hg_azimuth_mean(double g, double mu, double mu0) {
     double chord2 = (mu - mu0) * (mu - mu0) + (sine - sine0) * (sine - sine0);
     double a_minus_b = (1 - g) * (1 - g) + g * chord2;
     double a_plus_b = a_minus_b + 2 * b;
-    double e = pps_elliptic_e(fmin(1, 2 * b / a_plus_b));
+    double e = pps_elliptic_e(a_minus_b / a_plus_b);
     return (1 - g) * (1 + g) * e / (2 * PI * PI * a_minus_b * sqrt(a_plus_b));
 }
 
@@ -93,7 +93,7 @@ static double backward_elliptic(double g, double mu0) {
 }
 
 double pps_hg_backward(double g, double mu0) {
-    if (mu0 == 0) {
+    if (mu0 < 1e-20) { /* R = 1/2 - O(mu0); below 1e-51 Carlson's arguments underflow */
         return 0.5;
     }
     if (fabs(g) < 0.6) {

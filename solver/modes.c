@@ -225,11 +225,10 @@ static void refine_smallest(const pps_discrete *d, eigen_scratch *s, double *k) 
 /* X = M L1 Y, Z = M^-1 L1^-T Y, and from them what the solver keeps: G, V, W. */
 static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     int n = d->n, m = order->m;
-    double *ly = s->b, *z = s->lower; /* L1 Y; then L1^-T Y takes the place of L1 */
+    double *ly = s->b, *z = s->y; /* L1 Y; L1^-T Y, which takes the place of Y */
     memcpy(ly, s->y, (size_t)n * (size_t)n * sizeof *ly);
     pps_lower_times(n, s->lower, false, n, ly);
-    pps_lower_solve(n, s->lower, true, n, s->y);
-    z = s->y;
+    pps_lower_solve(n, s->lower, true, n, z);
     for (int j = 0; j < n; j++) {
         double sum = 0;
         for (int i = 0; i < n; i++) {

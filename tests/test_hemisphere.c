@@ -27,9 +27,8 @@ static void isotropic_radiance_gives_flux_pi_and_mean_one_half(void **state) {
     static const double beams[] = {1e-4, 1e-3, 0.5, 0.999, 1};
     static const double asymmetries[] = {-0.999, 0, 0.5, 0.99};
     for (int i = 0; i < 6 * 5 * 4; i++) {
-        pps_hemisphere all = pps_hemisphere_integral(one, NULL, runs[i % 6],
-                                                     beams[i / 6 % 5],
-                                                     asymmetries[i / 30]);
+        pps_hemisphere all = pps_hemisphere_integral(
+            one, NULL, runs[i % 6], beams[i / 6 % 5], asymmetries[i / 30]);
         assert_close(all.flux, PI, 1e-14, 0);
         assert_close(all.mean, 0.5, 1e-14, 0);
     }
@@ -77,7 +76,8 @@ static void add_panel(const column *c, double from, double to, pps_hemisphere *s
     pps_gauss_unit(POINTS, node, weight);
     for (int i = 0; i < POINTS; i++) {
         double s = from + (to - from) * node[i];
-        double source = fabs(to - from) * weight[i] * exp(-c->q * (c->tau - c->side * s));
+        double source =
+            fabs(to - from) * weight[i] * exp(-c->q * (c->tau - c->side * s));
         sum->mean += source * exponential_integral(s) / (8 * PI);
         sum->flux += source * second_exponential_integral(s) / 2;
     }
@@ -100,10 +100,11 @@ static pps_hemisphere column_sum(const column *c, double run) {
 
 static const struct {
     double mu0, w, tau;
-} places[] = {{1, 1, 0},        {1, 1, 0.3},       {1, 1, 1},         {0.5, 10, 5},
-              {0.5, 10, 10},    {0.01, 1, 0.02},   {0.01, 1, 1},      {1e-3, 0.1, 1e-3},
-              {0.8, 1e-9, 0},   {0.8, 1e-9, 5e-10}, {0.8, 1e-9, 1e-9}, {1e-3, 1e-9, 1e-9},
-              {0.3, 1e-3, 5e-4}, {0.3, 30, 1e-6}};
+} places[] = {{1, 1, 0},          {1, 1, 0.3},       {1, 1, 1},
+              {0.5, 10, 5},       {0.5, 10, 10},     {0.01, 1, 0.02},
+              {0.01, 1, 1},       {1e-3, 0.1, 1e-3}, {0.8, 1e-9, 0},
+              {0.8, 1e-9, 5e-10}, {0.8, 1e-9, 1e-9}, {1e-3, 1e-9, 1e-9},
+              {0.3, 1e-3, 5e-4},  {0.3, 30, 1e-6}};
 enum { N_PLACES = sizeof places / sizeof places[0] };
 
 static void isotropic_single_scattering_is_an_exponential_integral(void **state) {

@@ -249,7 +249,8 @@ static void ray_integrals_are_continuous_across_kinds(void **state) {
             ray_integrals(&here, tau, mu, &psi[0], &phi[0]);
             ray_integrals(&there, tau, mu, &psi[1], &phi[1]);
             double share = -expm1(-run / fabs(mu));
-            assert_same(psi, phi, share * strength_at(&there, tau), beam_length(&there));
+            assert_same(psi, phi, share * strength_at(&there, tau),
+                        beam_length(&there));
         }
     }
 }
