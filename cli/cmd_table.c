@@ -46,8 +46,8 @@ static const paper_column table_1[] = {
 };
 
 /* SPP paper, Table 2: the refined solution, taken as the mean over the g of Table 1.
- * Its last row is the root mean square of the column (2.22, 2.43, 2.38 and 2.40 for 2.3,
- * 2.5, 2.4 and 2.5), not the mean (1.80 to 1.96). */
+ * Its last row is the root mean square of the column (2.22, 2.43, 2.38 and 2.40 for
+ * 2.3, 2.5, 2.4 and 2.5), not the mean (1.80 to 1.96). */
 static const paper_column table_2[] = {
     {"w=inf", 0, 0, 3, 0, {0.3, 0.7, 1.7, 2.3, 4.0, 2.3}},
     {"w=16", 0, 0, 3, 1, {0.3, 0.7, 1.7, 2.2, 4.6, 2.5}},

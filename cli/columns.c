@@ -6,11 +6,11 @@
 #include <stddef.h>
 
 /* clang-format off */
-#define CASE_COLUMNS                                                                    \
-    {"method", "string", NULL, "name of the method"},                                   \
-    {"albedo", "double", "1", "single-scattering albedo"},                              \
-    {"g", "double", "1", "asymmetry of the Henyey-Greenstein phase function"},          \
-    {"thickness", "double", "1", "optical thickness; inf is a half-space"},             \
+#define CASE_COLUMNS                                                                   \
+    {"method", "string", NULL, "name of the method"},                                  \
+    {"albedo", "double", "1", "single-scattering albedo"},                             \
+    {"g", "double", "1", "asymmetry of the Henyey-Greenstein phase function"},         \
+    {"thickness", "double", "1", "optical thickness; inf is a half-space"},            \
     {"mu0", "double", "1", "cosine of the beam's angle of incidence"}
 
 static const column methods_columns[] = {
@@ -29,7 +29,7 @@ static const column field_columns[] = {
     {"mu", "double", "1", "cosine of the direction; above 0 goes down"},
     {"phi", "double", "degree", "azimuth of the direction, 0 is the beam's own"},
     {"radiance", "double", "1/sr",
-     "diffuse radiance, without the beam, in units of the beam's irradiance for --beam 1"},
+     "diffuse radiance, without the beam; the beam's irradiance is 1 or --beam"},
     {0}};
 
 static const column flux_columns[] = {
@@ -54,7 +54,7 @@ static const column error_columns[] = {
     {"reflectance_error", "double", "1",
      "relative error of the diffuse upward flux at depth 0"},
     {"transmittance_error", "double", "1",
-     "relative error of the diffuse downward flux at the bottom; empty for a half-space"},
+     "relative error of the diffuse flux out of the bottom; empty for a half-space"},
     {"seconds", "double", "s",
      "time to solve this case and evaluate its radiances; differs from run to run"},
     {0}};

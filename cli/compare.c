@@ -97,7 +97,7 @@ static double relative(double x, double whole) {
     return x == 0 ? 0 : CSV_EMPTY;
 }
 
-/* Means over the directions at depth k: the squared difference and the exact radiance. */
+/* Means over the directions at depth k: of the squared difference, of the exact. */
 static void compare_depth(const case_grid *grid, size_t k, const answer *a,
                           const answer *exact, double *mean_square, double *mean) {
     size_t at = k * grid->mu.n * grid->phi.n;

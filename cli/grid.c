@@ -97,7 +97,7 @@ static int read_methods(const invocation *call, case_grid *grid) {
 
 /* ---- depths ---- */
 
-/* The depth that item i of a list means in a slab; shares are of min(thickness, cap). */
+/* What depth item i of a list means in a slab; a share is of min(thickness, cap). */
 static int resolve_depth(const number_list *list, size_t i, double thickness,
                          double cap, double *tau) {
     char x[CSV_NUMBER_SIZE], w[CSV_NUMBER_SIZE], what[160];

@@ -1,4 +1,4 @@
-/* Lists of numbers as options give them: `0.5,0.9`, `0:1:11`, `0.1:10:5log`, `inf`, `25%`.
+/* Lists of numbers as options give them: `0.5,0.9`, `0:1:11`, `0.1:10:5log`, `25%`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_LIST_H

@@ -85,9 +85,13 @@ static json_t *json_columns(const column *columns) {
     json_t *array = json_array();
 
     for (; columns->name; columns++) {
-        json_t *entry = json_pack(
-            "{s:s, s:s, s:s, s:s}", "name", columns->name, "titles", columns->name,
-            "datatype", columns->datatype, "dc:description", columns->description);
+        /* clang-format off */
+        json_t *entry = json_pack("{s:s, s:s, s:s, s:s}",
+                                  "name", columns->name,
+                                  "titles", columns->name,
+                                  "datatype", columns->datatype,
+                                  "dc:description", columns->description);
+        /* clang-format on */
         if (columns->unit)
             json_object_set_new(entry, "schema:unitText", json_string(columns->unit));
         json_array_append_new(array, entry);
@@ -122,6 +126,20 @@ static void add_word(json_t *words, const char *word) {
     json_array_append_new(words, json_string(word));
 }
 
+static json_t *json_range(int lo, int hi) {
+    return json_pack("{s:i, s:i}", "min", lo, "max", hi);
+}
+
+/* clang-format off */
+static json_t *json_count(const used_count *count) {
+    return json_pack("{s:s, s:i, s:s, s:b, s:I}",
+                     "method", count->method->name,
+                     "streams", count->streams,
+                     "nodes", nodes_name(count->nodes),
+                     "delta_m", (int)count->delta_m,
+                     "outputs", (json_int_t)count->outputs);
+}
+
 /* Streams, orders, nodes and scaling over all outputs of the run. */
 static json_t *json_used(const used_log *log) {
     json_t *counts = json_array(), *nodes = json_array(), *scaled = json_array();
@@ -130,23 +148,50 @@ static json_t *json_used(const used_log *log) {
 
     for (size_t i = 0; i < log->n; i++) {
         const used_count *count = &log->count[i];
-        json_int_t outputs = (json_int_t)count->outputs;
-        const char *name = nodes_name(count->nodes);
         lo = count->streams < lo ? count->streams : lo;
         hi = count->streams > hi ? count->streams : hi;
-        add_word(nodes, name);
+        add_word(nodes, nodes_name(count->nodes));
         add_word(scaled, count->delta_m ? "on" : "off");
-        json_array_append_new(
-            counts, json_pack("{s:s, s:i, s:s, s:b, s:I}", "method",
-                              count->method->name, "streams", count->streams, "nodes",
-                              name, "delta_m", count->delta_m, "outputs", outputs));
+        json_array_append_new(counts, json_count(count));
     }
-    return json_pack("{s:{s:i, s:i}, s:{s:i, s:i}, s:o, s:o, s:o, s:o}", "streams",
-                     "min", lo, "max", hi, "orders", "min", log->min_orders, "max",
-                     log->max_orders, "nodes", nodes, "delta_m", scaled,
-                     "worst_error_estimate", worst ? worst : json_null(), "counts",
-                     counts);
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "streams", json_range(lo, hi),
+                     "orders", json_range(log->min_orders, log->max_orders),
+                     "nodes", nodes,
+                     "delta_m", scaled,
+                     "worst_error_estimate", worst ? worst : json_null(),
+                     "counts", counts);
 }
+
+static json_t *json_notes(const invocation *call, const char *date,
+                          const used_log *used, size_t rows, size_t refused_rows) {
+    return json_pack("{s:s, s:s, s:s, s:o, s:s, s:I, s:I, s:o}",
+                     "program", "ppscat",
+                     "version", pps_version(),
+                     "subcommand", subcommand_table[call->subcommand].name,
+                     "command", json_command(call),
+                     "date", date,
+                     "rows", (json_int_t)rows,
+                     "refused_rows", (json_int_t)refused_rows,
+                     "used", used->n ? json_used(used) : json_null());
+}
+
+static json_t *json_sidecar(const char *csv_path, const invocation *call,
+                            const char *date, json_t *notes) {
+    const char *slash = strrchr(csv_path, '/');
+    json_t *columns = json_columns(columns_of(call->subcommand));
+    char creator[64];
+
+    snprintf(creator, sizeof creator, "ppscat %s", pps_version());
+    return json_pack("{s:s, s:o, s:s, s:s, s:{s:o}, s:[o]}",
+                     "@context", "http://www.w3.org/ns/csvw",
+                     "url", json_text(slash ? slash + 1 : csv_path),
+                     "dc:creator", creator,
+                     "dc:date", date,
+                     "tableSchema", "columns", columns,
+                     "notes", notes);
+}
+/* clang-format on */
 
 static void iso_date(char *text, size_t size) {
     time_t now = time(NULL);
@@ -155,26 +200,6 @@ static void iso_date(char *text, size_t size) {
     text[0] = '\0';
     if (gmtime_r(&now, &utc))
         strftime(text, size, "%Y-%m-%dT%H:%M:%SZ", &utc);
-}
-
-static json_t *json_sidecar(const char *csv_path, const invocation *call,
-                            const used_log *used, size_t rows, size_t refused_rows) {
-    const char *slash = strrchr(csv_path, '/');
-    char date[32], creator[64];
-    json_t *notes;
-
-    iso_date(date, sizeof date);
-    snprintf(creator, sizeof creator, "ppscat %s", pps_version());
-    notes = json_pack(
-        "{s:s, s:s, s:s, s:o, s:s, s:I, s:I, s:o}", "program", "ppscat", "version",
-        pps_version(), "subcommand", subcommand_table[call->subcommand].name, "command",
-        json_command(call), "date", date, "rows", (json_int_t)rows, "refused_rows",
-        (json_int_t)refused_rows, "used", used->n ? json_used(used) : json_null());
-    return json_pack("{s:s, s:o, s:s, s:s, s:{s:o}, s:[o]}", "@context",
-                     "http://www.w3.org/ns/csvw", "url",
-                     json_text(slash ? slash + 1 : csv_path), "dc:creator", creator,
-                     "dc:date", date, "tableSchema", "columns",
-                     json_columns(columns_of(call->subcommand)), "notes", notes);
 }
 
 /* Write to `part`, then give it its name. */
@@ -198,9 +223,13 @@ int metadata_write(const char *csv_path, const invocation *call, const used_log 
                    size_t rows, size_t refused_rows) {
     size_t size = strlen(csv_path) + sizeof "-metadata.json.part";
     char *path = malloc(size), *part = malloc(size);
-    json_t *json = json_sidecar(csv_path, call, used, rows, refused_rows);
+    char date[32];
+    json_t *json;
     int rc;
 
+    iso_date(date, sizeof date);
+    json = json_sidecar(csv_path, call, date,
+                        json_notes(call, date, used, rows, refused_rows));
     if (path && part && json) {
         snprintf(path, size, "%s-metadata.json", csv_path);
         snprintf(part, size, "%s-metadata.json.part", csv_path);

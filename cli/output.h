@@ -33,8 +33,9 @@ int output_end_row(output *out, const pps_method *method, const char *reason);
 /* Note what a method used for an output. */
 int output_used(output *out, const pps_method *method, const pps_info *info);
 
-/* Finish with rc, the outcome so far: report refusals, write the sidecar, name the file.
- * Returns the exit code. Nothing is left under the final name unless all went well. */
+/* Finish with rc, the outcome so far: report refusals, write the sidecar, name the
+ * file. Returns the exit code. Nothing is left under the final name unless all went
+ * well. */
 int output_close(output *out, int rc);
 
 #endif

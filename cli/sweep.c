@@ -1,8 +1,8 @@
 /* The sweep engine: tiles shared among threads, answers in order.
  *
  * A thread fills a buffer with the first blocks of its tile. When its turn comes (the
- * ordered region), it hands them on and streams the rest, so memory stays bounded however
- * long the lists are.
+ * ordered region), it hands them on and streams the rest, so memory stays bounded
+ * however long the lists are.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep.h"
@@ -122,7 +122,7 @@ static void emit(sweep *s, const station *own, size_t i, const void *block) {
 
 static void begin_tile(sweep *s, size_t tile, station *own) {
     own->tile = tile;
-    if (stopped(s))
+    if (stopped(s) || !own->buffer || !own->workers)
         return;
     note_failure(s, open_tile(s, tile, own));
     for (size_t i = 0; i < s->n_slots; i++)
@@ -159,15 +159,18 @@ static void work(sweep *s) {
     atomic_fetch_add(&s->left, 1);
 }
 
+static int n_threads(const sweep *s) {
+    size_t threads = (size_t)s->task->grid->threads;
+
+    return (int)(threads < s->n_tiles ? threads : s->n_tiles);
+}
+
 int sweep_run(const sweep_task *task) {
     sweep s;
-    size_t threads = (size_t)task->grid->threads;
 
     plan(&s, task);
-    if (threads > s.n_tiles)
-        threads = s.n_tiles;
     progress_start(&s.progress, task->grid->progress, s.n_tiles * s.n_cases);
-#pragma omp parallel num_threads((int)threads)
+#pragma omp parallel num_threads(n_threads(&s))
     work(&s);
     progress_end(&s.progress);
     assert(atomic_load(&s.left) >= 1);

@@ -1,9 +1,9 @@
 /* The engine under `field`, `flux` and `error`: cases in, answers out in order.
  *
- * The slow parameters are outside: a tile is one (method, albedo, g), or one (albedo, g)
- * with all methods together; it owns one model a method and visits every thickness and
- * every mu0 with it. Threads share the tiles; the order of the answers and every bit of
- * them depend on the grid alone.
+ * The slow parameters are outside: a tile is one (method, albedo, g), or one
+ * (albedo, g) with all methods together; it owns one model a method and visits every
+ * thickness and every mu0 with it. Threads share the tiles; the order of the answers
+ * and every bit of them depend on the grid alone.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_SWEEP_H
@@ -26,12 +26,11 @@ typedef struct {
 } sweep_case;
 
 /* What to do with every case. `evaluate` runs on any thread and fills a block of
- * block_size bytes; `emit` gets the blocks one at a time, in order. Both return CLI_DONE
- * or CLI_FAILED, which ends the sweep. */
+ * block_size bytes; `emit` gets the blocks one at a time, in order. Both return
+ * CLI_DONE or CLI_FAILED, which ends the sweep. */
 typedef struct sweep_task {
     const case_grid *grid;
-    const pps_method
-        *reference; /* not NULL: all methods together, this one after them */
+    const pps_method *reference; /* when not NULL: all methods together, then this */
     size_t block_size;
     int (*evaluate)(const struct sweep_task *task, const sweep_worker *workers,
                     const sweep_case *at, void *block);
@@ -42,8 +41,8 @@ typedef struct sweep_task {
 
 int sweep_run(const sweep_task *task);
 
-/* Solve a case with one worker. *refusal is NULL, or static text that says why the method
- * cannot do it. CLI_FAILED without memory. */
+/* Solve a case with one worker. *refusal is NULL, or static text that says why the
+ * method cannot do it. CLI_FAILED without memory. */
 int sweep_solve(const sweep_worker *worker, const sweep_case *at, const char **refusal);
 
 /* The same distinction for any status of the library. */

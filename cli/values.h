@@ -1,7 +1,7 @@
 /* Reading the text of one option: numbers within their range, words, whole numbers.
  *
- * Every function that returns int gives CLI_USAGE, after one line that names the option,
- * the value and what is allowed, where the text is wrong.
+ * Where the text is wrong, every function that returns int prints one line that names
+ * the option, the value and what is allowed, and gives CLI_USAGE.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_VALUES_H

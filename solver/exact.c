@@ -2,7 +2,7 @@
  * tolerance asks for.
  *
  * With a given number of streams it is one solve. With `auto` it climbs a ladder of stream
- * counts until two neighbours agree to the tolerance, and returns the finer: their
+ * counts until neighbours agree to the tolerance, and returns the finest: their
  * difference is the error of the coarser one, so the estimate is on the safe side. The
  * ladder is entered where the answer is expected, from (albedo, g, tolerance) alone, so
  * that a case has one answer whatever was solved before it. Eigenproblems are kept for
@@ -11,11 +11,13 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/method.h"
 #include "solver/dom.h"
 
-static const int ladder[] = {8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
+static const int ladder[] = {8,   12,  16,  24,  32,  48,  64,  96,
+                             128, 192, 256, 384, 512, 768, 1024};
 enum { N_LADDER = sizeof ladder / sizeof ladder[0] };
 
 /* With many azimuthal orders the last rungs would take minutes. */
@@ -187,34 +189,48 @@ static int last_rung(const request *what) {
     return last;
 }
 
-static pps_status climb(exact *e, const request *what, double *answer, double *other) {
-    int last = last_rung(what), first = first_rung(e);
-    bool have_coarse = false;
+/* Rungs that must agree. Thin slabs converge slowly and not evenly, as the nodes pass
+ * through directions mu ~ thickness: two neighbours may agree by chance, three do not. */
+enum { MOST_AGREEING = 3 };
+static int agreeing_rungs(const exact *e) { return e->slab.thickness < 0.1 ? 3 : 2; }
+
+/* The largest difference of the newest answer to those before it; answer n is kept in
+ * kept[n % MOST_AGREEING]. */
+static double disagreement(const request *what, double *const *kept, int newest,
+                           int agreeing) {
+    double worst = 0;
+    for (int back = 1; back < agreeing; back++) {
+        worst = fmax(worst, difference(what, kept[(newest - back) % MOST_AGREEING],
+                                       kept[newest % MOST_AGREEING]));
+    }
+    return worst;
+}
+
+/* Climb the ladder; on success kept[*newest % MOST_AGREEING] is the answer. */
+static pps_status climb(exact *e, const request *what, double *const *kept,
+                        int *newest) {
+    int last = last_rung(what), agreeing = agreeing_rungs(e), n_answers = 0;
+    int first = first_rung(e);
     double azimuth = e->opts.tolerance / 100;
-    pps_status status = PPS_ERR_TOLERANCE;
     for (int i = first < last ? first : last - 1; i <= last; i++) {
-        double *fine = have_coarse ? other : answer;
-        status = rung_answer(e, i, ladder[i], azimuth, what, fine);
+        pps_status status = rung_answer(e, i, ladder[i], azimuth, what,
+                                        kept[n_answers % MOST_AGREEING]);
         if (status == PPS_ERR_INDEFINITE) {
-            have_coarse = false; /* more streams may mend it */
+            n_answers = 0; /* more streams may mend it */
             continue;
         }
         if (status) {
             return status;
         }
-        if (!have_coarse) {
-            have_coarse = true;
-            continue;
-        }
-        e->info.error_estimate = difference(what, answer, fine);
-        for (size_t k = 0; k < what->n; k++) {
-            answer[k] = fine[k];
-        }
-        if (e->info.error_estimate <= e->opts.tolerance) {
-            return PPS_OK;
+        *newest = n_answers++;
+        if (n_answers >= agreeing) {
+            e->info.error_estimate = disagreement(what, kept, *newest, agreeing);
+            if (e->info.error_estimate <= e->opts.tolerance) {
+                return PPS_OK;
+            }
         }
     }
-    return status ? status : PPS_ERR_TOLERANCE;
+    return n_answers > 0 ? PPS_ERR_TOLERANCE : PPS_ERR_INDEFINITE;
 }
 
 static pps_status produce(exact *e, const request *what, double *answer) {
@@ -223,12 +239,20 @@ static pps_status produce(exact *e, const request *what, double *answer) {
         /* Given streams: the azimuth series to rounding. */
         return rung_answer(e, 0, e->opts.streams, 1e-15, what, answer);
     }
-    double *other = malloc((what->n + 1) * sizeof *other);
-    if (!other) {
+    double *memory = malloc((MOST_AGREEING * what->n + 1) * sizeof *memory);
+    if (!memory) {
         return PPS_ERR_MEMORY;
     }
-    pps_status status = climb(e, what, answer, other);
-    free(other);
+    double *kept[MOST_AGREEING];
+    for (size_t i = 0; i < MOST_AGREEING; i++) {
+        kept[i] = memory + i * what->n;
+    }
+    int newest = 0;
+    pps_status status = climb(e, what, kept, &newest);
+    if (!status) {
+        memcpy(answer, kept[newest % MOST_AGREEING], what->n * sizeof *answer);
+    }
+    free(memory);
     return status;
 }
 
@@ -261,7 +285,7 @@ const pps_method pps_method_exact = {
     .cost = "eigenproblems per (albedo, g), then microseconds to milliseconds a case",
     .summary = "discrete ordinates (SPP Eq. 7), streams chosen to the tolerance",
     .limits =
-        "refuses where 256 streams (fluxes: 512) miss the tolerance, as for g > 0.97",
+        "refuses where 256 streams (fluxes: 1024) miss the tolerance, as for g > 0.97",
     .fields = true,
     .fluxes = true,
     .half_space = true,

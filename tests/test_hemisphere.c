@@ -1,5 +1,5 @@
-/* Integrals over a hemisphere, against closed forms and against the same integrals taken
- * in the other order: over mu first, which gives exponential integrals, then over depth.
+/* Integrals over a hemisphere, against closed forms and against the same integrals in
+ * the other order: over mu first, which gives exponential integrals, then over depth.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/support.h"

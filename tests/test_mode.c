@@ -149,8 +149,8 @@ static void both_equations_hold_through_the_slab(void **state) {
 /* The length over which the beam feeds the mode. */
 static double beam_length(const pps_mode *mode) { return fmin(mode->w, 1 / mode->q); }
 
-/* The size of phi at a depth, had nothing cancelled: what the sources add up to, and how
- * much of it is left. psi is of this size times beam_length. */
+/* The size of phi at a depth, had nothing cancelled: what the sources add up to, and
+ * how much of it is left. psi is of this size times beam_length. */
 static double strength_at(const pps_mode *mode, double tau) {
     double fed = fabs(mode->beta) + fabs(mode->alpha) * beam_length(mode);
     return fed * exp(-fmin(mode->k, mode->q) * tau);
@@ -215,7 +215,7 @@ static void ray_integrals(const pps_mode *mode, double tau, double mu, double *p
     pps_mode_ray(mode, &ray, &at, psi, phi);
 }
 
-/* psi[0] = psi[1] and phi[0] = phi[1], to 1e-12 or the rounding of parts that cancel. */
+/* The same psi and phi twice, to 1e-12 or the rounding of parts that cancel. */
 static void assert_same(const double psi[2], const double phi[2], double size,
                         double length) {
     assert_close(psi[0], psi[1], 1e-12, 1e-15 * size * length);

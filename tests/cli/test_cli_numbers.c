@@ -1,4 +1,4 @@
-/* Lists, angles, default directions and the digits of CSV, straight from their functions.
+/* Lists, angles, default directions and the digits of CSV, from their functions.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "program.h"

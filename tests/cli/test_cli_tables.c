@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Refined SPP at thickness 10, in percent: an independent prototype by the same sampling,
- * to two decimals. Albedo 0.5, 0.7, 0.9, 0.95, 0.99. */
+/* Refined SPP at thickness 10, in percent: an independent prototype by the same
+ * sampling, to two decimals. Albedo 0.5, 0.7, 0.9, 0.95, 0.99. */
 static const struct {
     const char *column;
     double value[5];
