@@ -280,9 +280,10 @@ static int read_solver(const invocation *call, pps_options *options) {
     options->nodes = (pps_nodes)nodes;
     options->delta_m = (pps_delta_m)delta_m;
     if (rc == CLI_DONE && options->delta_m == PPS_DELTA_M_OFF &&
-        options->nodes == PPS_NODES_MAPPED)
-        return cli_usage("--nodes 'mapped' contradicts --delta-m 'off', the plain "
-                         "discrete problem on Gauss nodes; allowed: gauss, auto");
+        options->nodes > PPS_NODES_GAUSS)
+        return cli_usage(
+            "--nodes 'mapped' or 'graded' contradicts --delta-m 'off', the plain "
+            "discrete problem on Gauss nodes; allowed: gauss, auto");
     return rc;
 }
 

@@ -112,6 +112,7 @@ static const char *nodes_name(pps_nodes nodes) {
         [PPS_NODES_AUTO] = "auto",
         [PPS_NODES_GAUSS] = "gauss",
         [PPS_NODES_MAPPED] = "mapped",
+        [PPS_NODES_GRADED] = "graded",
     };
 
     return names[nodes];

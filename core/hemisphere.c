@@ -36,7 +36,7 @@ static void panel(integration *in, double from, double to) {
 static void graded(integration *in, double at, double to, double smallest) {
     double length = fabs(to - at), side = to > at ? 1 : -1, near = 0, far = smallest;
     while (near < length) {
-        far = far < length / PANEL_RATIO ? far : length;
+        far = fmin(far, length);
         double a = at + side * near, b = at + side * far;
         panel(in, fmin(a, b), fmax(a, b));
         near = far;
@@ -52,7 +52,7 @@ pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *
     }
     pps_gauss_unit(PANEL_POINTS, in.node, in.weight);
     double grazing = fmax(fmin(run, 1) / 40, 1e-300);
-    double peak = fmax(0.1 * (1 - fabs(g)) * (1 - fabs(g)), 1e-15);
+    double peak = fmin(mu0, fmax(0.1 * (1 - fabs(g)) * (1 - fabs(g)), 1e-15));
     graded(&in, 0, mu0 / 2, grazing);
     graded(&in, mu0, mu0 / 2, peak);
     if (mu0 < 1) {

@@ -39,14 +39,16 @@ void pps_mode_beam(pps_mode *mode, double k, double w, double q, double alpha,
     }
     switch (mode->kind) {
     case PPS_MODE_THIN:
-        mode->p = 0;
+        mode->p = mode->r = 0;
         break;
-    case PPS_MODE_RESONANT: /* psi = p Theta */
+    case PPS_MODE_RESONANT: /* psi = p Theta, phi = k p Theta + r e^(-q tau) */
         mode->p = (alpha + q * beta) / (k + q);
+        mode->r = (k * beta - alpha) / (k + q);
         break;
     case PPS_MODE_SMALL:
-    case PPS_MODE_NORMAL: /* psi = p e^(-q tau) */
+    case PPS_MODE_NORMAL: /* psi = p e^(-q tau), phi = r e^(-q tau) */
         mode->p = -(alpha + q * beta) / ((q - k) * (q + k));
+        mode->r = -(q * alpha + k * k * beta) / ((q - k) * (q + k));
         break;
     }
 }
@@ -69,12 +71,12 @@ static void particular(const pps_mode *mode, double tau, double *psi, double *ph
     case PPS_MODE_RESONANT:
         theta = isinf(tau) ? 0 : pps_exp1(tau, k, q);
         *psi = p * theta;
-        *phi = (mode->beta - p) * eqt + k * p * theta;
+        *phi = mode->r * eqt + k * p * theta;
         break;
     case PPS_MODE_SMALL:
     case PPS_MODE_NORMAL:
         *psi = p * eqt;
-        *phi = (mode->beta + q * p) * eqt;
+        *phi = mode->r * eqt;
         break;
     }
 }
@@ -307,8 +309,7 @@ void pps_mode_ray(const pps_mode *mode, const pps_ray *ray, const pps_mode_depth
                 mode->c2 * pps_ray_sinh_bottom(ray, k)) /
                    s +
                p * ray->beam;
-        *phi =
-            mode->c2 * bottom - mode->c1 * top + (mode->beta + mode->q * p) * ray->beam;
+        *phi = mode->c2 * bottom - mode->c1 * top + mode->r * ray->beam;
         return;
     }
     case PPS_MODE_RESONANT: {
@@ -316,14 +317,13 @@ void pps_mode_ray(const pps_mode *mode, const pps_ray *ray, const pps_mode_depth
         ray_exponentials(mode, ray, at, &top, &bottom);
         *psi = mode->c1 * top + mode->c2 * bottom + p * theta;
         *phi = k * (mode->c1 * top - mode->c2 * bottom) + k * p * theta +
-               (mode->beta - p) * ray->beam;
+               mode->r * ray->beam;
         return;
     }
     case PPS_MODE_NORMAL:
         ray_exponentials(mode, ray, at, &top, &bottom);
         *psi = mode->c1 * top + mode->c2 * bottom + p * ray->beam;
-        *phi = k * (mode->c1 * top - mode->c2 * bottom) +
-               (mode->beta + mode->q * p) * ray->beam;
+        *phi = k * (mode->c1 * top - mode->c2 * bottom) + mode->r * ray->beam;
         return;
     }
 }

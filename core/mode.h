@@ -24,7 +24,7 @@ typedef struct pps_mode {
     pps_mode_kind kind;
     double k, q, w;
     double alpha, beta;
-    double p; /* amplitude of the particular solution */
+    double p, r; /* amplitudes of the particular solution, psi and phi */
     /* Homogeneous part. THIN: psi, phi of the whole solution at tau = 0. SMALL: psi_h at
      * the bottom, at the top. Else: the factors of e^(-k tau), e^(-k (w - tau)). */
     double c1, c2;

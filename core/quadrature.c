@@ -40,11 +40,18 @@ void pps_gauss_unit(int n, double *node, double *weight) {
 
 void pps_hemisphere_nodes(pps_nodes kind, int n, double *mu, double *weight) {
     pps_gauss_unit(n, mu, weight);
-    if (kind != PPS_NODES_MAPPED) {
-        return;
+    double sum = 0;
+    int squarings = kind == PPS_NODES_GRADED ? 2 : kind == PPS_NODES_MAPPED ? 1 : 0;
+    for (int step = 0; step < squarings; step++) {
+        for (int i = 0; i < n; i++) {
+            weight[i] *= 2 * mu[i];
+            mu[i] *= mu[i];
+        }
     }
     for (int i = 0; i < n; i++) {
-        weight[i] *= 2 * mu[i];
-        mu[i] *= mu[i];
+        sum += weight[i];
+    }
+    for (int i = 0; i < n; i++) {
+        weight[i] /= sum; /* 1 but for rounding, and for one graded node */
     }
 }

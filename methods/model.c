@@ -16,9 +16,9 @@ struct pps_model {
 static bool options_valid(const pps_options *o) {
     bool streams = o->streams == 0 || (o->streams >= 2 && o->streams % 2 == 0 &&
                                        o->streams <= PPS_STREAMS_MAX);
-    bool clash = o->delta_m == PPS_DELTA_M_OFF && o->nodes == PPS_NODES_MAPPED;
+    bool clash = o->delta_m == PPS_DELTA_M_OFF && o->nodes > PPS_NODES_GAUSS;
     return streams && !clash && o->nodes >= PPS_NODES_AUTO &&
-           o->nodes <= PPS_NODES_MAPPED && o->delta_m >= PPS_DELTA_M_AUTO &&
+           o->nodes <= PPS_NODES_GRADED && o->delta_m >= PPS_DELTA_M_AUTO &&
            o->delta_m <= PPS_DELTA_M_OFF && o->tolerance >= 0 && o->tolerance < 1;
 }
 

@@ -21,23 +21,29 @@ static const double SQUARED_NODE = 1e-3;
 static bool opts_valid(const pps_dom_opts *o) {
     bool streams = o->streams == 0 || (o->streams >= 2 && o->streams % 2 == 0 &&
                                        o->streams <= PPS_STREAMS_MAX);
-    bool enums = o->nodes >= PPS_NODES_AUTO && o->nodes <= PPS_NODES_MAPPED &&
+    bool enums = o->nodes >= PPS_NODES_AUTO && o->nodes <= PPS_NODES_GRADED &&
                  o->delta_m >= PPS_DELTA_M_AUTO && o->delta_m <= PPS_DELTA_M_OFF;
-    bool clash = o->delta_m == PPS_DELTA_M_OFF && o->nodes == PPS_NODES_MAPPED;
+    bool clash = o->delta_m == PPS_DELTA_M_OFF && o->nodes > PPS_NODES_GAUSS;
     return streams && enums && !clash && o->orders >= 0 && o->tolerance >= 0 &&
            o->tolerance < 1;
 }
 
-/* Moments l < L that the nodes carry: 2n on Gauss nodes, 7n/4 on mapped ones, where the
- * Legendre functions lose their orthogonality beyond. */
+/* Moments l < L that the nodes carry. Beyond, the Legendre functions lose their
+ * orthogonality on them: Gauss nodes carry 2n, the others, coarser about mu = 1, fewer. */
 static int moments_for(pps_nodes nodes, int streams) {
-    int n_moments = nodes == PPS_NODES_GAUSS ? streams : streams * 7 / 8;
+    int n_moments = nodes == PPS_NODES_GAUSS    ? streams
+                    : nodes == PPS_NODES_MAPPED ? streams * 7 / 8
+                                                : streams * 5 / 8;
     return n_moments > 2 ? n_moments : 2;
 }
 
 pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
     /* Mapped nodes converge exponentially and see grazing directions, but carry fewer
-     * moments: they win in thin slabs, and wherever these resolve the phase function. */
+     * moments: they win in thin slabs, and wherever these resolve the phase function. In
+     * very thin slabs few moments matter, as single scattering is taken exactly. */
+    if (slab->thickness < 0.01) {
+        return PPS_NODES_GRADED;
+    }
     double left_out = pow(fabs(slab->g), moments_for(PPS_NODES_MAPPED, streams));
     bool mapped = slab->thickness < 1 || fabs(slab->g) <= 0.5 || left_out < 1e-7;
     return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
@@ -67,7 +73,7 @@ static void scale_peak(pps_dom *dom, bool scaled) {
 
 static void quadrature_bias(pps_discrete *d, pps_nodes nodes) {
     double p[PPS_STREAMS_MAX], sum[PPS_STREAMS_MAX] = {0};
-    for (int i = 0; nodes == PPS_NODES_MAPPED && i < d->n; i++) {
+    for (int i = 0; nodes != PPS_NODES_GAUSS && i < d->n; i++) {
         pps_legendre(0, d->n_moments, d->mu[i], p);
         for (int l = 2; l < d->n_moments; l += 2) {
             sum[l] += d->weight[i] * p[l];

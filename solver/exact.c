@@ -27,8 +27,8 @@ typedef struct {
     pps_slab slab;
     pps_options opts;
     double mu0;
-    /* Solvers kept, [rung][mapped]; a given number of streams uses kept[0]. */
-    pps_dom *kept[N_LADDER][2];
+    /* Solvers kept; a given number of streams uses kept[0]. */
+    pps_dom *kept[N_LADDER][PPS_NODES_GRADED + 1];
     pps_info info;
 } exact;
 
@@ -47,8 +47,9 @@ static pps_status exact_init(void *state, const pps_slab *slab,
 static void exact_clear(void *state) {
     exact *e = state;
     for (int i = 0; i < N_LADDER; i++) {
-        pps_dom_free(e->kept[i][0]);
-        pps_dom_free(e->kept[i][1]);
+        for (int nodes = 0; nodes <= PPS_NODES_GRADED; nodes++) {
+            pps_dom_free(e->kept[i][nodes]);
+        }
     }
 }
 
@@ -72,7 +73,7 @@ static pps_nodes nodes_of(const exact *e, int streams) {
 static pps_status rung_solve(exact *e, int index, int streams, int orders,
                              double azimuth, pps_dom **out) {
     pps_nodes nodes = nodes_of(e, streams);
-    pps_dom **kept = &e->kept[index][nodes == PPS_NODES_MAPPED];
+    pps_dom **kept = &e->kept[index][nodes];
     if (*kept && (*kept)->n_orders < orders &&
         (*kept)->n_orders < (*kept)->discrete.n_moments) {
         pps_dom_free(*kept);

@@ -179,11 +179,11 @@ static void flux_tolerance_is_met_in_thin_and_thick_slabs(void **state) {
 /* A tolerance that no ladder reaches is said, and nothing passed off. */
 static void unreachable_tolerance_is_refused(void **state) {
     (void)state;
-    pps_model *model = create(0.95, 0.9, 1e-15);
-    double tau = 0;
-    pps_flux flux;
+    pps_model *model = create(0.95, 0.9, 1e-18);
+    double tau[3] = {0, 1, 10};
+    pps_flux flux[3];
     assert_int_equal(pps_model_solve(model, 10, 0.5), PPS_OK);
-    assert_int_equal(pps_model_flux(model, 1, &tau, &flux), PPS_ERR_TOLERANCE);
+    assert_int_equal(pps_model_flux(model, 3, tau, flux), PPS_ERR_TOLERANCE);
     pps_model_free(model);
 }
 

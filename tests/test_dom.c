@@ -27,11 +27,12 @@ static void conservative_slab_returns_all_energy(void **state) {
         pps_delta_m delta_m;
     } kinds[] = {{PPS_NODES_GAUSS, PPS_DELTA_M_AUTO},
                  {PPS_NODES_GAUSS, PPS_DELTA_M_OFF},
-                 {PPS_NODES_MAPPED, PPS_DELTA_M_AUTO}};
+                 {PPS_NODES_MAPPED, PPS_DELTA_M_AUTO},
+                 {PPS_NODES_GRADED, PPS_DELTA_M_AUTO}};
     for (double w = 1e-6; w < 2e6; w *= 10) {
-        for (int i = 0; i < 4 * 4 * 3 * 2; i++) {
+        for (int i = 0; i < 4 * 4 * 4 * 2; i++) {
             double g = gs[i % 4], mu0 = mu0s[i / 4 % 4], tau[2] = {0, w};
-            int kind = i / 16 % 3, streams = i / 48 ? 48 : 8;
+            int kind = i / 16 % 4, streams = i / 64 ? 48 : 8;
             if (kind == 1 && g == 0.9) {
                 continue; /* indefinite without scaling */
             }

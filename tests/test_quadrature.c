@@ -49,7 +49,7 @@ static void nodes_ascend_inside_the_unit_interval(void **state) {
     (void)state;
     double x[MOST], weight[MOST];
     for (int s = 0; s < N_SIZES; s++) {
-        for (pps_nodes kind = PPS_NODES_GAUSS; kind <= PPS_NODES_MAPPED; kind++) {
+        for (pps_nodes kind = PPS_NODES_GAUSS; kind <= PPS_NODES_GRADED; kind++) {
             int n = sizes[s];
             pps_hemisphere_nodes(kind, n, x, weight);
             assert_true(x[0] > 0 && x[n - 1] < 1);
@@ -65,7 +65,7 @@ static void weights_sum_to_one(void **state) {
     (void)state;
     double x[MOST], weight[MOST];
     for (int s = 0; s < N_SIZES; s++) {
-        for (pps_nodes kind = PPS_NODES_GAUSS; kind <= PPS_NODES_MAPPED; kind++) {
+        for (pps_nodes kind = PPS_NODES_GAUSS; kind <= PPS_NODES_GRADED; kind++) {
             double sum = 0;
             pps_hemisphere_nodes(kind, sizes[s], x, weight);
             for (int i = 0; i < sizes[s]; i++) {

@@ -25,9 +25,11 @@ extern "C" {
 
 /* Quadrature of a hemisphere, n = streams / 2 nodes. */
 typedef enum {
-    PPS_NODES_AUTO,  /* mapped for thin slabs, |g| <= 0.5 or many streams; else Gauss */
-    PPS_NODES_GAUSS, /* Gauss-Legendre on (0, 1): "double Gauss" */
-    PPS_NODES_MAPPED /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
+    PPS_NODES_AUTO,   /* graded below thickness 0.01; mapped below 1, for |g| <= 0.5 and
+                         with many streams; else Gauss */
+    PPS_NODES_GAUSS,  /* Gauss-Legendre on (0, 1): "double Gauss" */
+    PPS_NODES_MAPPED, /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
+    PPS_NODES_GRADED  /* mu = x^4: for slabs so thin that mu ~ thickness matters */
 } pps_nodes;
 
 /* Scaling of the forward peak (delta-M, Wiscombe 1977). */
@@ -45,14 +47,15 @@ typedef struct pps_dom_opts {
     int streams; /* 2n, even, 2..PPS_STREAMS_MAX; 0 = 32 */
     pps_nodes nodes;
     pps_delta_m delta_m;
-    int orders; /* azimuthal orders; 0 = enough for `tolerance`; 1 = fluxes only */
+    int orders;       /* azimuthal orders (more than the moments are those); 0 = enough
+                   for `tolerance`; 1 = fluxes only */
     double tolerance; /* of the azimuth series, relative; 0 = 1e-15 */
 } pps_dom_opts;
 
 /* What was used; the residuals a user may want to see. */
 typedef struct pps_dom_info {
     int streams, orders, moments; /* moments of the phase function kept, l < moments */
-    pps_nodes nodes;              /* GAUSS or MAPPED */
+    pps_nodes nodes;              /* never AUTO */
     double delta_fraction;        /* f of delta-M; 0 when not scaled */
     double diffusion_exponent;    /* smallest eigenvalue k of m = 0 */
 } pps_dom_info;
