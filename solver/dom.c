@@ -45,7 +45,7 @@ pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
         return PPS_NODES_GRADED;
     }
     double left_out = pow(fabs(slab->g), moments_for(PPS_NODES_MAPPED, streams));
-    bool mapped = slab->thickness < 1 || fabs(slab->g) <= 0.5 || left_out < 1e-7;
+    bool mapped = slab->thickness < 1 || fabs(slab->g) <= 0.7 || left_out < 1e-7;
     return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
 }
 

@@ -25,7 +25,7 @@ extern "C" {
 
 /* Quadrature of a hemisphere, n = streams / 2 nodes. */
 typedef enum {
-    PPS_NODES_AUTO,   /* graded below thickness 0.01; mapped below 1, for |g| <= 0.5 and
+    PPS_NODES_AUTO,   /* graded below thickness 0.01; mapped below 1, for |g| <= 0.7 and
                          with many streams; else Gauss */
     PPS_NODES_GAUSS,  /* Gauss-Legendre on (0, 1): "double Gauss" */
     PPS_NODES_MAPPED, /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
