@@ -14,7 +14,16 @@
 struct pps_method_ops {
     size_t state_size; /* zeroed memory handed to init */
     pps_status (*init)(void *state, const pps_slab *slab, const pps_options *opts);
+    /* Light the slab with a beam of 1 along mu0, black below. */
     pps_status (*solve)(void *state, double thickness, double mu0);
+    /* Light it with an isotropic radiance of 1 from above instead, black below. The
+     * outputs then include the uncollided sky light; flux.direct is 0 and flux.mean is
+     * flux.mean_diffuse. NULL: the method has no sky, and so no ground either (which
+     * methods/model.c adds by superposition of these two). */
+    pps_status (*solve_sky)(void *state, double thickness);
+    /* The method takes beam, sky and ground from the options itself: solve means all of
+     * them, solve_sky is NULL. */
+    bool own_light;
     pps_status (*radiance)(void *state, const pps_grid *at, double *radiance);
     pps_status (*flux)(void *state, size_t n, const double *tau, pps_flux *flux);
     void (*query)(const void *state, pps_info *info); /* NULL: nothing to say */

@@ -15,6 +15,7 @@
 #define PPSCAT_METHOD_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <ppscat/dom.h>
 
@@ -22,13 +23,23 @@
 extern "C" {
 #endif
 
+/* What falls in from above and what lies below. */
+typedef struct pps_light {
+    double beam;   /* irradiance of the beam through a surface normal to it, >= 0 */
+    double sky;    /* isotropic diffuse radiance falling on the lit side, >= 0 */
+    double ground; /* Lambertian reflectance below the slab, 0..1; 0 is black */
+} pps_light;
+
 /* Zero means default throughout; a method ignores what does not concern it. */
 typedef struct pps_options {
     int streams; /* of `exact`; 0 = as many as `tolerance` asks for */
     pps_nodes nodes;
     pps_delta_m delta_m;
     double tolerance; /* 0 = 1e-6. For a radiance relative to max(its value, 1e-3 of
-                            the largest of its case); for fluxes relative */
+                         the largest of its case); for fluxes relative */
+    pps_light light;  /* beam and sky both 0: a beam of 1 */
+    uint64_t photons; /* of `mc`; 0 = 1e5 */
+    uint64_t seed;    /* of `mc` */
 } pps_options;
 
 /* What a method used for the last output. */
@@ -66,7 +77,8 @@ PPS_API pps_status pps_model_create(const pps_method *method, const pps_slab *sl
 /* Set thickness and beam. UNSUPPORTED where the method does not cover them. */
 PPS_API pps_status pps_model_solve(pps_model *model, double thickness, double mu0);
 
-/* Diffuse radiance for unit beam irradiance, 1/sr; index as pps_dom_radiance.
+/* Diffuse radiance under the light of the options (for a beam of 1: per unit irradiance,
+ * 1/sr); uncollided sky light is diffuse. Index as pps_dom_radiance.
  * Not const: a method may refine itself until it meets the tolerance. */
 PPS_API pps_status pps_model_radiance(pps_model *model, const pps_grid *at,
                                       double *radiance);
