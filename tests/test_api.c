@@ -296,8 +296,10 @@ static void solver_options_are_honoured_or_refused(void **state) {
 
 /* `exact` makes its solvers when asked for output: there INDEFINITE shows. */
 static pps_status status_of_exact(const pps_dom_opts *opts, double g) {
-    pps_options own = {opts->streams ? opts->streams : 16, opts->nodes, opts->delta_m,
-                       opts->tolerance};
+    pps_options own = {.streams = opts->streams ? opts->streams : 16,
+                       .nodes = opts->nodes,
+                       .delta_m = opts->delta_m,
+                       .tolerance = opts->tolerance};
     pps_slab slab = {1, g, 1};
     pps_model *model = (pps_model *)(uintptr_t)1;
     pps_flux flux[3];
