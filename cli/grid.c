@@ -247,10 +247,13 @@ static int read_light(const invocation *call, case_grid *grid) {
         rc = value_number(call, OPT_GROUND, &ground);
     if (rc != CLI_DONE)
         return rc;
-    if (ground > 0)
-        grid->refusal = "a ground that reflects (--ground above 0) is not computed yet";
-    if (sky > 0)
-        grid->refusal = "light from the sky (--sky above 0) is not computed yet";
+    /* Without a sky everything is linear in the beam, which may then be 0 as well. */
+    grid->options.light = (pps_light){.beam = 1, .ground = ground};
+    if (sky > 0) {
+        grid->options.light.beam = grid->beam;
+        grid->options.light.sky = sky;
+        grid->beam = 1;
+    }
     return CLI_DONE;
 }
 

@@ -26,7 +26,6 @@ typedef struct {
     number_list mu, phi;
     double *mu_weight, *phi_weight; /* GRID_ERROR: of directions in a mean, sum 1 */
     double beam;
-    const char *refusal; /* why no row can be computed; NULL when they can */
     pps_options options;
     int threads;
     bool progress;

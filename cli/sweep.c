@@ -75,9 +75,8 @@ static int open_tile(const sweep *s, size_t tile, station *own) {
     own->g = slab.g;
     for (size_t i = 0; i < s->n_workers; i++) {
         sweep_worker *worker = &own->workers[i];
-        *worker = (sweep_worker){.method = worker_method(s, tile, i),
-                                 .refusal = grid->refusal};
-        if (!grid->refusal && rc == CLI_DONE)
+        *worker = (sweep_worker){.method = worker_method(s, tile, i), .refusal = NULL};
+        if (rc == CLI_DONE)
             rc = sweep_judge(
                 pps_model_create(worker->method, &slab, &grid->options, &worker->model),
                 &worker->refusal);

@@ -78,3 +78,12 @@ pps_hemisphere pps_single_hemisphere(double g, double mu0, double w, double tau,
     return pps_hemisphere_integral(single_radiance, &context, down ? tau : w - tau, mu0,
                                    g);
 }
+
+static double backward(const void *context, double mu) {
+    return pps_hg_backward(*(const double *)context, mu);
+}
+
+double pps_hg_backward_diffuse(double g) {
+    /* R(mu) turns from 1/2 at grazing angles within mu ~ 1 - |g|. */
+    return 2 * pps_hemisphere_integral(backward, &g, 10 * (1 - fabs(g)), 1, 0).mean;
+}

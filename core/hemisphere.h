@@ -23,4 +23,8 @@ pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *
 pps_hemisphere pps_single_hemisphere(double g, double mu0, double w, double tau,
                                      int down);
 
+/* The share of isotropic light from one side that one scattering sends back: the mean of
+ * pps_hg_backward over mu in (0, 1). */
+double pps_hg_backward_diffuse(double g);
+
 #endif

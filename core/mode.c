@@ -53,6 +53,11 @@ void pps_mode_beam(pps_mode *mode, double k, double w, double q, double alpha,
     }
 }
 
+void pps_mode_dark(pps_mode *mode, double k, double w) {
+    /* q = 1 stands for "thin means w < 2"; the particular solution is 0. */
+    pps_mode_beam(mode, k, w, 1, 0, 0);
+}
+
 /* C(t) and Sh(t). */
 static void thin_beam(const pps_mode *mode, double t, double *c, double *sh) {
     *sh = pps_exp2(t, -mode->k, mode->k, mode->q);
@@ -127,10 +132,10 @@ void pps_mode_close(pps_mode *mode, const pps_mode_edges *edges) {
     }
 }
 
-void pps_mode_solve(pps_mode *mode, double g) {
+void pps_mode_solve(pps_mode *mode, double g, double top) {
     double psi[2], phi[2], half = mode->w / 2;
     pps_mode_particular(mode, psi, phi);
-    double r_top = -(g * psi[0] + phi[0]), r_bottom = -(g * psi[1] - phi[1]);
+    double r_top = top - (g * psi[0] + phi[0]), r_bottom = -(g * psi[1] - phi[1]);
     double even = g + pps_k_tanh(mode->k, half), odd = g + pps_k_coth(mode->k, half);
     double cross = isinf(half) ? 0 : pps_2k_csch(mode->k, mode->w) / (even * odd);
     double mean = (1 / even + 1 / odd) / 2;

@@ -45,9 +45,12 @@ typedef struct pps_mode_edges {
 } pps_mode_edges;
 void pps_mode_close(pps_mode *mode, const pps_mode_edges *edges);
 
-/* Solve a single mode with the boundary conditions G psi + phi = 0 at the top and
- * G psi - phi = 0 at the bottom (nothing falls in), G > 0. */
-void pps_mode_solve(pps_mode *mode, double g);
+/* Solve a single mode with the boundary conditions G psi + phi = top at the top (0 when
+ * nothing diffuse falls in) and G psi - phi = 0 at the bottom, G > 0. */
+void pps_mode_solve(pps_mode *mode, double g, double top);
+
+/* A mode without a beam: light comes in through the boundary. */
+void pps_mode_dark(pps_mode *mode, double k, double w);
 
 /* The homogeneous boundary problem of one mode needs k tanh(k w/2), k coth(k w/2) and
  * 2 k / sinh(k w), right down to k = 0 and up to w = infinity. */

@@ -53,21 +53,11 @@ static void edge_residuals(const pps_order *order, double *edge, double *values)
     }
 }
 
-void pps_order_solve(pps_order *order, const pps_discrete *discrete, double thickness,
-                     double mu0, double *scratch) {
+/* From the residuals R0, Rw in a[0..n), a[n..2n) to the modes. */
+static void close_modes(pps_order *order, double thickness, double *a, double *b,
+                        double *cross) {
     int n = order->n;
-    size_t pair = 2 * (size_t)n * sizeof(double);
-    double *a = scratch, *b = a + 2 * n, *cross = b + 2 * n, *values = cross + 2 * n;
-    /* Beam: alpha = X^T a and beta = Z^T b are the projections at mu0. */
-    double *ge = a, *go = a + n;
-    pps_order_project(order, discrete, mu0, ge, go, values);
-    double factor = (order->m == 0 ? 1 : 2) / 3.14159265358979323846;
-    for (int j = 0; j < n; j++) {
-        pps_mode_beam(&order->mode[j], order->k[j], thickness, 1 / mu0, factor * ge[j],
-                      factor * go[j]);
-    }
-    edge_residuals(order, a, values);
-    memcpy(b, a, pair);
+    memcpy(b, a, 2 * (size_t)n * sizeof *a);
     pps_cholesky_solve(n, order->even, 2, a); /* Ae^-1 (R0, Rw) */
     pps_cholesky_solve(n, order->odd, 2, b);  /* Ao^-1 (R0, Rw) */
     for (int j = 0; j < n; j++) {
@@ -85,4 +75,32 @@ void pps_order_solve(pps_order *order, const pps_discrete *discrete, double thic
         };
         pps_mode_close(&order->mode[j], &edges);
     }
+}
+
+void pps_order_solve(pps_order *order, const pps_discrete *discrete, double thickness,
+                     double mu0, double *scratch) {
+    int n = order->n;
+    double *a = scratch, *b = a + 2 * n, *cross = b + 2 * n, *values = cross + 2 * n;
+    /* Beam: alpha = X^T a and beta = Z^T b are the projections at mu0. */
+    double *ge = a, *go = a + n;
+    pps_order_project(order, discrete, mu0, ge, go, values);
+    double factor = (order->m == 0 ? 1 : 2) / 3.14159265358979323846;
+    for (int j = 0; j < n; j++) {
+        pps_mode_beam(&order->mode[j], order->k[j], thickness, 1 / mu0, factor * ge[j],
+                      factor * go[j]);
+    }
+    edge_residuals(order, a, values);
+    close_modes(order, thickness, a, b, cross);
+}
+
+void pps_order_solve_sky(pps_order *order, double thickness, double *scratch) {
+    int n = order->n;
+    double *a = scratch, *b = a + 2 * n, *cross = b + 2 * n;
+    for (int j = 0; j < n; j++) {
+        pps_mode_dark(&order->mode[j], order->k[j], thickness);
+        /* s + d = 2 sqrt(w mu) at the top: G psi + phi = 2 X^T sqrt(w mu). */
+        a[j] = 2 * order->flux_s[j];
+        a[j + n] = 0;
+    }
+    close_modes(order, thickness, a, b, cross);
 }

@@ -193,6 +193,15 @@ pps_status pps_dom_solve(pps_dom *dom, double mu0) {
                         dom->slab.thickness * dom->stretch, mu0, dom->scratch);
     }
     dom->mu0 = mu0;
+    dom->sky = false;
+    return PPS_OK;
+}
+
+pps_status pps_dom_solve_sky(pps_dom *dom) {
+    pps_order_solve_sky(&dom->order[0], dom->slab.thickness * dom->stretch,
+                        dom->scratch);
+    dom->mu0 = 1;
+    dom->sky = true;
     return PPS_OK;
 }
 

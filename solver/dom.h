@@ -16,7 +16,8 @@ struct pps_dom {
     pps_discrete discrete;
     double f;       /* truncated fraction of delta-M; 0 without */
     double stretch; /* scaled optical depth / true: 1 - albedo f */
-    double mu0;     /* 0 until solved */
+    double mu0;     /* 0 until solved; 1 under the sky */
+    bool sky;       /* solved for isotropic light instead of the beam */
     int n_orders;
     pps_order *order;
     double *scratch; /* of pps_order_solve */

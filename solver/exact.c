@@ -27,6 +27,7 @@ typedef struct {
     pps_slab slab;
     pps_options opts;
     double mu0;
+    bool sky; /* isotropic light instead of the beam */
     /* Solvers kept; a given number of streams uses kept[0]. */
     pps_dom *kept[N_LADDER][PPS_NODES_GRADED + 1];
     pps_info info;
@@ -57,6 +58,15 @@ static pps_status exact_solve(void *state, double thickness, double mu0) {
     exact *e = state;
     e->slab.thickness = thickness;
     e->mu0 = mu0;
+    e->sky = false;
+    return PPS_OK;
+}
+
+static pps_status exact_solve_sky(void *state, double thickness) {
+    exact *e = state;
+    e->slab.thickness = thickness;
+    e->mu0 = 1;
+    e->sky = true;
     return PPS_OK;
 }
 
@@ -97,7 +107,10 @@ static pps_status rung_solve(exact *e, int index, int streams, int orders,
             return status;
         }
     }
-    return (*kept)->mu0 == e->mu0 ? PPS_OK : pps_dom_solve(*kept, e->mu0);
+    if ((*kept)->mu0 == e->mu0 && (*kept)->sky == e->sky) {
+        return PPS_OK;
+    }
+    return e->sky ? pps_dom_solve_sky(*kept) : pps_dom_solve(*kept, e->mu0);
 }
 
 /* What is asked of a rung: a radiance or fluxes, as n plain numbers. */
@@ -122,7 +135,7 @@ static pps_status rung_fluxes(exact *e, int index, int streams, const request *w
 /* As many orders as g and the tolerance ask for, doubled while the last ones still add. */
 static pps_status rung_radiance(exact *e, int index, int streams, double azimuth,
                                 const request *what, double *radiance) {
-    int orders = pps_dom_orders_for(e->slab.g, azimuth, streams);
+    int orders = e->sky ? 1 : pps_dom_orders_for(e->slab.g, azimuth, streams);
     for (;; orders *= 2) {
         pps_dom *dom;
         double rest;
@@ -278,6 +291,7 @@ static const pps_method_ops ops = {
     .state_size = sizeof(exact),
     .init = exact_init,
     .solve = exact_solve,
+    .solve_sky = exact_solve_sky,
     .radiance = exact_radiance,
     .flux = exact_flux,
     .query = exact_query,

@@ -49,7 +49,7 @@ static const double CANCELLED = 1e-3;
 static double flux_down(const pps_dom *dom, double tau, const mode_sums *sum) {
     double flux = sum->even + sum->odd;
     if (tau <= 0) {
-        return 0; /* nothing falls in */
+        return dom->sky ? PI : 0; /* what falls in */
     }
     return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, 1);
 }
@@ -118,7 +118,8 @@ static void correct_single(const pps_dom *dom, double tau, double scale,
 }
 
 static pps_flux flux_at(const pps_dom *dom, double tau, double thin_scale) {
-    double mu0 = dom->mu0, scaled = tau * dom->stretch, beam = exp(-tau / mu0);
+    double mu0 = dom->mu0, scaled = tau * dom->stretch;
+    double beam = dom->sky ? 0 : exp(-tau / mu0);
     mode_sums sum = sum_modes(&dom->order[0], scaled);
     pps_flux flux = {
         .down = flux_down(dom, scaled, &sum),
@@ -128,7 +129,7 @@ static pps_flux flux_at(const pps_dom *dom, double tau, double thin_scale) {
     };
     if (thin_scale > 0) {
         correct_single(dom, tau, thin_scale, &flux);
-    } else {
+    } else if (!dom->sky) {
         /* What delta-M left in the beam is diffuse light of the true problem. */
         double peak = exp(-scaled / mu0) * -expm1(-(tau - scaled) / mu0);
         flux.down += mu0 * peak;
@@ -143,7 +144,7 @@ pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
     if (!(dom->mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
-    bool thin = dom->corrected && dom->slab.thickness < THIN;
+    bool thin = dom->corrected && !dom->sky && dom->slab.thickness < THIN;
     double scale = thin ? multiple_scale(dom) : 0;
     for (size_t i = 0; i < n; i++) {
         flux[i] = flux_at(dom, tau[i], scale);

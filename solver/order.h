@@ -63,4 +63,8 @@ size_t pps_order_scratch(const pps_discrete *discrete);
 void pps_order_solve(pps_order *order, const pps_discrete *discrete, double thickness,
                      double mu0, double *scratch);
 
+/* The same for an isotropic radiance of 1 from above instead of the beam; order 0 only,
+ * as the others stay dark. The modes then carry the uncollided light too. */
+void pps_order_solve_sky(pps_order *order, double thickness, double *scratch);
+
 #endif

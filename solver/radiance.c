@@ -31,6 +31,9 @@ static double ray_sum(const pps_order *order, const pps_ray *ray,
     return ray->down ? even + odd : even - odd;
 }
 
+/* What comes through of an isotropic radiance of 1 from above. */
+static double sky_uncollided(const pps_ray *ray) { return ray->down ? ray->ect : 0; }
+
 double pps_dom_mean_radiance(const pps_dom *dom, double tau, double mu) {
     const pps_discrete *d = &dom->discrete;
     const pps_order *order = &dom->order[0];
@@ -43,8 +46,9 @@ double pps_dom_mean_radiance(const pps_dom *dom, double tau, double mu) {
         at[j] = pps_mode_at(&order->mode[j], tau);
     }
     pps_order_project(order, d, mu, ge, go, legendre);
-    return ray_sum(order, &ray, at, ge, go) +
-           pps_discrete_single(d, mu, dom->mu0) * ray.beam;
+    double rest = dom->sky ? sky_uncollided(&ray)
+                           : pps_discrete_single(d, mu, dom->mu0) * ray.beam;
+    return ray_sum(order, &ray, at, ge, go) + rest;
 }
 
 /* albedo p of the scattering angle, as single scattering takes it. The exact p is
@@ -97,7 +101,8 @@ static pps_status scratch_alloc(field_scratch *s, const pps_dom *dom,
     return PPS_OK;
 }
 
-static void single_scattering(const pps_dom *dom, field_scratch *s, double *radiance) {
+/* Everything but multiple scattering: single scattering, or the sky seen through. */
+static void first_light(const pps_dom *dom, field_scratch *s, double *radiance) {
     const pps_grid *at = s->at;
     double w = dom->slab.thickness * dom->stretch, q = 1 / dom->mu0;
     for (size_t k = 0; k < at->n_tau; k++) {
@@ -108,10 +113,11 @@ static void single_scattering(const pps_dom *dom, field_scratch *s, double *radi
     }
     for (size_t j = 0; j < at->n_mu; j++) {
         for (size_t i = 0; i < at->n_phi; i++) {
-            double source = single_source(dom, at->mu[j], at->phi[i]);
+            double source = dom->sky ? 0 : single_source(dom, at->mu[j], at->phi[i]);
             for (size_t k = 0; k < at->n_tau; k++) {
                 size_t ray = k * at->n_mu + j;
-                radiance[ray * at->n_phi + i] = source * s->ray[ray].beam;
+                radiance[ray * at->n_phi + i] =
+                    dom->sky ? sky_uncollided(&s->ray[ray]) : source * s->ray[ray].beam;
             }
         }
     }
@@ -183,8 +189,9 @@ pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_g
     if (status) {
         return status;
     }
-    single_scattering(dom, &s, radiance);
+    first_light(dom, &s, radiance);
     int small_in_a_row = 0, m = 0;
+    n_orders = dom->sky ? 1 : n_orders; /* nothing depends on azimuth */
     for (; m < n_orders && small_in_a_row < 2; m++) {
         double *swap = s.last_term;
         s.last_term = s.term;
@@ -192,7 +199,7 @@ pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_g
         order_terms(dom, &dom->order[m], &s);
         small_in_a_row = add_order(dom, m, &s, radiance) ? small_in_a_row + 1 : 0;
     }
-    bool complete = m == dom->discrete.n_moments || dom->slab.g == 0;
+    bool complete = m == dom->discrete.n_moments || dom->slab.g == 0 || dom->sky;
     *rest = complete ? 0 : azimuth_rest(&s, radiance);
     scratch_free(&s);
     return PPS_OK;

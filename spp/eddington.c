@@ -16,6 +16,7 @@ static const double PI = 3.14159265358979323846;
 typedef struct {
     pps_slab slab;
     double mu0;
+    bool sky;
     pps_twostream two;
 } eddington;
 
@@ -31,8 +32,20 @@ static pps_status eddington_solve(void *state, double thickness, double mu0) {
     double albedo = d->slab.albedo, g = d->slab.g;
     d->slab.thickness = thickness;
     d->mu0 = mu0;
+    d->sky = false;
     pps_twostream_solve(&d->two, thickness, mu0, 2 * (1 - albedo),
                         1.5 * (1 - albedo * g), albedo, 1.5 * albedo * g * mu0);
+    return PPS_OK;
+}
+
+static pps_status eddington_solve_sky(void *state, double thickness) {
+    eddington *d = state;
+    double albedo = d->slab.albedo;
+    d->slab.thickness = thickness;
+    d->mu0 = 1;
+    d->sky = true;
+    pps_twostream_solve_sky(&d->two, thickness, 2 * (1 - albedo),
+                            1.5 * (1 - albedo * d->slab.g));
     return PPS_OK;
 }
 
@@ -46,8 +59,11 @@ static double diffuse(const void *solution, const pps_ray *ray, double mu) {
 static pps_status eddington_radiance(void *state, const pps_grid *at,
                                      double *radiance) {
     const eddington *d = state;
-    pps_march march = {
-        .slab = d->slab, .mu0 = d->mu0, .diffuse = diffuse, .solution = d};
+    pps_march march = {.slab = d->slab,
+                       .mu0 = d->mu0,
+                       .diffuse = diffuse,
+                       .solution = d,
+                       .sky = d->sky};
     pps_march_radiance(&march, at, radiance);
     return PPS_OK;
 }
@@ -64,6 +80,7 @@ static pps_status eddington_flux(void *state, size_t n, const double *tau,
 static const pps_method_ops ops = {.state_size = sizeof(eddington),
                                    .init = eddington_init,
                                    .solve = eddington_solve,
+                                   .solve_sky = eddington_solve_sky,
                                    .radiance = eddington_radiance,
                                    .flux = eddington_flux};
 

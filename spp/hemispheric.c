@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <ppscat/phase.h>
 
+#include "core/hemisphere.h"
 #include "core/method.h"
 #include "spp/twostream.h"
 
@@ -31,6 +32,14 @@ static pps_status hemispheric_solve(void *state, double thickness, double mu0) {
     double e = 2 * (1 - albedo), f = e + 4 * albedo * backward;
     pps_twostream_solve(&h->two, thickness, mu0, e, f, albedo,
                         albedo * (1 - 2 * backward));
+    return PPS_OK;
+}
+
+static pps_status hemispheric_solve_sky(void *state, double thickness) {
+    hemispheric *h = state;
+    double albedo = h->slab.albedo, backward = pps_hg_backward_diffuse(h->slab.g);
+    double e = 2 * (1 - albedo), f = e + 4 * albedo * backward;
+    pps_twostream_solve_sky(&h->two, thickness, e, f);
     return PPS_OK;
 }
 
@@ -60,6 +69,7 @@ static pps_status hemispheric_flux(void *state, size_t n, const double *tau,
 static const pps_method_ops ops = {.state_size = sizeof(hemispheric),
                                    .init = hemispheric_init,
                                    .solve = hemispheric_solve,
+                                   .solve_sky = hemispheric_solve_sky,
                                    .radiance = hemispheric_radiance,
                                    .flux = hemispheric_flux};
 

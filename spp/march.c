@@ -15,6 +15,11 @@ static double diffuse_part(const pps_march *march, const pps_ray *ray, double mu
     return march->diffuse ? march->diffuse(march->solution, ray, mu) : 0;
 }
 
+/* What does not scatter in the slab: sky light on its way down. */
+static double uncollided(const pps_march *march, const pps_ray *ray) {
+    return march->sky && ray->down ? ray->ect : 0;
+}
+
 void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance) {
     double albedo = march->slab.albedo, g = march->slab.g;
     for (size_t k = 0; k < at->n_tau; k++) {
@@ -22,10 +27,12 @@ void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radi
             pps_ray ray;
             pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, at->tau[k],
                          at->mu[j]);
-            double diffuse = diffuse_part(march, &ray, at->mu[j]);
+            double diffuse =
+                albedo * diffuse_part(march, &ray, at->mu[j]) + uncollided(march, &ray);
+            double beam = march->sky ? 0 : albedo * ray.beam;
             for (size_t i = 0; i < at->n_phi; i++) {
                 double x = pps_cos_scattering(march->mu0, at->mu[j], at->phi[i]);
-                *radiance++ = albedo * (diffuse + pps_hg(g, x) * ray.beam);
+                *radiance++ = diffuse + beam * pps_hg(g, x);
             }
         }
     }
@@ -43,9 +50,11 @@ static double azimuth_mean(const void *context, double abs_mu) {
     double mu = h->sign * abs_mu;
     pps_ray ray;
     pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, h->tau, mu);
-    return march->slab.albedo *
-           (diffuse_part(march, &ray, mu) +
-            pps_hg_azimuth_mean(march->slab.g, mu, march->mu0) * ray.beam);
+    double source = diffuse_part(march, &ray, mu);
+    if (!march->sky) {
+        source += pps_hg_azimuth_mean(march->slab.g, mu, march->mu0) * ray.beam;
+    }
+    return march->slab.albedo * source + uncollided(march, &ray);
 }
 
 void pps_march_flux(const pps_march *march, size_t n, const double *tau,
@@ -53,10 +62,11 @@ void pps_march_flux(const pps_march *march, size_t n, const double *tau,
     double mu0 = march->mu0, w = march->slab.thickness, g = march->slab.g;
     for (size_t i = 0; i < n; i++) {
         hemisphere down = {march, tau[i], 1}, up = {march, tau[i], -1};
-        pps_hemisphere d = pps_hemisphere_integral(azimuth_mean, &down, tau[i], mu0, g);
+        double run = march->sky && tau[i] == 0 ? 1 : tau[i]; /* sky light starts full */
+        pps_hemisphere d = pps_hemisphere_integral(azimuth_mean, &down, run, mu0, g);
         pps_hemisphere u =
             pps_hemisphere_integral(azimuth_mean, &up, w - tau[i], mu0, g);
-        double beam = exp(-tau[i] / mu0);
+        double beam = march->sky ? 0 : exp(-tau[i] / mu0);
         flux[i] = (pps_flux){.up = u.flux,
                              .down = d.flux,
                              .direct = mu0 * beam,

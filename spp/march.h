@@ -9,6 +9,8 @@
 #ifndef PPS_SPP_MARCH_H
 #define PPS_SPP_MARCH_H
 
+#include <stdbool.h>
+
 #include <ppscat/slab.h>
 
 #include "core/mode.h"
@@ -23,6 +25,7 @@ typedef struct pps_march {
     double mu0;
     pps_march_diffuse diffuse; /* NULL: single scattering only */
     const void *solution;
+    bool sky; /* no beam in the source, but uncollided light of radiance 1 from above */
 } pps_march;
 
 void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance);

@@ -40,6 +40,10 @@ static double diffuse(const void *solution, const pps_ray *ray, double mu) {
     double opposite = pps_hg_backward(s->slab.g, fabs(mu)) / (2 * PI); /* R at |mu| */
     double same = 1 / (2 * PI) - opposite;
     double down = ray_down(&s->spp, ray), up = ray_up(&s->spp, ray);
+    if (s->sky) { /* the light that falls in is diffuse itself */
+        down = 2 * PI * (down + ray->beam);
+        up *= 2 * PI;
+    }
     return mu > 0 ? same * down + opposite * up : opposite * down + same * up;
 }
 
@@ -53,12 +57,20 @@ static pps_status refined_init(void *state, const pps_slab *slab,
 static pps_status refined_solve(void *state, double thickness, double mu0) {
     spp_state *s = state;
     s->slab.thickness = thickness;
+    s->sky = false;
     return pps_spp_init(&s->spp, &s->slab, mu0, PPS_SPP_CONSISTENT);
 }
 
+static pps_status refined_solve_sky(void *state, double thickness) {
+    return pps_spp_init_sky(state, thickness, PPS_SPP_CONSISTENT);
+}
+
 static pps_march refined_march(const spp_state *s) {
-    return (pps_march){
-        .slab = s->slab, .mu0 = 1 / s->spp.q, .diffuse = diffuse, .solution = s};
+    return (pps_march){.slab = s->slab,
+                       .mu0 = 1 / s->spp.q,
+                       .diffuse = diffuse,
+                       .solution = s,
+                       .sky = s->sky};
 }
 
 static pps_status refined_radiance(void *state, const pps_grid *at, double *radiance) {
@@ -77,6 +89,7 @@ static pps_status refined_flux(void *state, size_t n, const double *tau,
 static const pps_method_ops ops = {.state_size = sizeof(spp_state),
                                    .init = refined_init,
                                    .solve = refined_solve,
+                                   .solve_sky = refined_solve_sky,
                                    .radiance = refined_radiance,
                                    .flux = refined_flux};
 

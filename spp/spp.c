@@ -24,18 +24,17 @@
 #include <ppscat/spp.h>
 
 #include "core/expdiff.h"
+#include "core/hemisphere.h"
 #include "core/method.h"
 #include "spp/spp.h"
 
 static const double PI = 3.14159265358979323846;
 
-pps_status pps_spp_init(pps_spp *spp, const pps_slab *slab, double mu0,
-                        pps_spp_kappa kappa) {
-    if (pps_slab_check(slab) || pps_mu0_check(mu0)) {
-        return PPS_ERR_ARGUMENT;
-    }
+/* Solve for light of cosine mu0, the share `backward` of which is scattered back. */
+static pps_status init(pps_spp *spp, const pps_slab *slab, double mu0, double backward,
+                       pps_spp_kappa kappa) {
     double albedo = slab->albedo, co_albedo = 1 - albedo, q = 1 / mu0;
-    double backward = pps_hg_backward(slab->g, mu0), forward = 1 - backward;
+    double forward = 1 - backward;
     double one_minus_delta = co_albedo + 2 * albedo * backward;
     double root = sqrt(one_minus_delta * co_albedo); /* lambda mu0 */
     double gamma = co_albedo + albedo * backward;    /* 1 - albedo T */
@@ -60,6 +59,21 @@ pps_status pps_spp_init(pps_spp *spp, const pps_slab *slab, double mu0,
                    spp->rho * spp->rho * pps_exp1(slab->thickness, 0, 2 * spp->lambda);
     }
     return isfinite(spp->kappa) ? PPS_OK : PPS_ERR_UNSUPPORTED;
+}
+
+pps_status pps_spp_init(pps_spp *spp, const pps_slab *slab, double mu0,
+                        pps_spp_kappa kappa) {
+    if (pps_slab_check(slab) || pps_mu0_check(mu0)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    return init(spp, slab, mu0, pps_hg_backward(slab->g, mu0), kappa);
+}
+
+pps_status pps_spp_init_sky(spp_state *state, double thickness, pps_spp_kappa kappa) {
+    state->slab.thickness = thickness;
+    state->sky = true;
+    return init(&state->spp, &state->slab, 0.5, pps_hg_backward_diffuse(state->slab.g),
+                kappa);
 }
 
 bool pps_spp_near_top(const pps_spp *spp, double tau) {
@@ -93,9 +107,19 @@ double pps_spp_up(const pps_spp *spp, double tau) {
 
 /* As a method: radiance D/(2 pi) down and U/(2 pi) up. */
 
-pps_flux pps_spp_flux_at(const pps_spp *spp, double tau) {
-    double d = pps_spp_down(spp, tau), u = pps_spp_up(spp, tau);
-    double mu0 = 1 / spp->q, beam = exp(-tau * spp->q);
+/* D without the beam, or with it where it is sky light and so diffuse. */
+static void amplitudes(const spp_state *s, double tau, double *down, double *up) {
+    *down = pps_spp_down(&s->spp, tau);
+    *up = pps_spp_up(&s->spp, tau);
+    if (s->sky) {
+        *down = 2 * PI * (*down + exp(-s->spp.q * tau));
+        *up *= 2 * PI;
+    }
+}
+
+static pps_flux flux_at(const spp_state *s, double tau) {
+    double d, u, mu0 = 1 / s->spp.q, beam = s->sky ? 0 : exp(-tau * s->spp.q);
+    amplitudes(s, tau, &d, &u);
     /* Every direction has |cos| = mu0 in this model, so that mu0 D and mu0 U are the
      * fluxes that conserve energy with the beam's mu0 e^(-tau/mu0). */
     return (pps_flux){.up = mu0 * u,
@@ -115,23 +139,33 @@ static pps_status spp_init(void *state, const pps_slab *slab, const pps_options 
 static pps_status consistent_solve(void *state, double thickness, double mu0) {
     spp_state *s = state;
     s->slab.thickness = thickness;
+    s->sky = false;
     return pps_spp_init(&s->spp, &s->slab, mu0, PPS_SPP_CONSISTENT);
+}
+
+static pps_status consistent_solve_sky(void *state, double thickness) {
+    return pps_spp_init_sky(state, thickness, PPS_SPP_CONSISTENT);
 }
 
 static pps_status printed_solve(void *state, double thickness, double mu0) {
     spp_state *s = state;
     s->slab.thickness = thickness;
+    s->sky = false;
     return pps_spp_init(&s->spp, &s->slab, mu0, PPS_SPP_PRINTED);
+}
+
+static pps_status printed_solve_sky(void *state, double thickness) {
+    return pps_spp_init_sky(state, thickness, PPS_SPP_PRINTED);
 }
 
 static pps_status spp_radiance(void *state, const pps_grid *at, double *radiance) {
     const spp_state *s = state;
     for (size_t k = 0; k < at->n_tau; k++) {
-        double down = pps_spp_down(&s->spp, at->tau[k]) / (2 * PI);
-        double up = pps_spp_up(&s->spp, at->tau[k]) / (2 * PI);
+        double down, up;
+        amplitudes(s, at->tau[k], &down, &up);
         for (size_t j = 0; j < at->n_mu; j++) {
             for (size_t i = 0; i < at->n_phi; i++) {
-                *radiance++ = at->mu[j] > 0 ? down : up;
+                *radiance++ = (at->mu[j] > 0 ? down : up) / (2 * PI);
             }
         }
     }
@@ -141,7 +175,7 @@ static pps_status spp_radiance(void *state, const pps_grid *at, double *radiance
 static pps_status spp_flux(void *state, size_t n, const double *tau, pps_flux *flux) {
     const spp_state *s = state;
     for (size_t i = 0; i < n; i++) {
-        flux[i] = pps_spp_flux_at(&s->spp, tau[i]);
+        flux[i] = flux_at(s, tau[i]);
     }
     return PPS_OK;
 }
@@ -149,11 +183,13 @@ static pps_status spp_flux(void *state, size_t n, const double *tau, pps_flux *f
 static const pps_method_ops consistent_ops = {.state_size = sizeof(spp_state),
                                               .init = spp_init,
                                               .solve = consistent_solve,
+                                              .solve_sky = consistent_solve_sky,
                                               .radiance = spp_radiance,
                                               .flux = spp_flux};
 static const pps_method_ops printed_ops = {.state_size = sizeof(spp_state),
                                            .init = spp_init,
                                            .solve = printed_solve,
+                                           .solve_sky = printed_solve_sky,
                                            .radiance = spp_radiance,
                                            .flux = spp_flux};
 

@@ -10,6 +10,8 @@
 #ifndef PPS_SPP_TWOSTREAM_H
 #define PPS_SPP_TWOSTREAM_H
 
+#include <stdbool.h>
+
 #include <ppscat/slab.h>
 
 #include "core/mode.h"
@@ -17,11 +19,15 @@
 typedef struct pps_twostream {
     pps_mode mode; /* psi = S, phi = f D */
     double f;
+    bool sky; /* lit by isotropic radiance 1 from above instead of the beam */
 } pps_twostream;
 
 /* e >= 0, f > 0. */
 void pps_twostream_solve(pps_twostream *two, double thickness, double mu0, double e,
                          double f, double a, double b);
+
+/* Lit by an isotropic radiance of 1 from above instead: F+(0) = pi. */
+void pps_twostream_solve_sky(pps_twostream *two, double thickness, double e, double f);
 
 /* F- , F+ and mean intensity (F+ + F-)/(2 pi), with the beam's share. */
 pps_flux pps_twostream_flux(const pps_twostream *two, double tau);

@@ -62,7 +62,7 @@ enum { N_SOURCES = sizeof sources / sizeof sources[0] };
 static pps_mode solve(const slab_mode *m, int source) {
     pps_mode mode;
     pps_mode_beam(&mode, m->k, m->w, m->q, sources[source].alpha, sources[source].beta);
-    pps_mode_solve(&mode, sources[source].g);
+    pps_mode_solve(&mode, sources[source].g, 0);
     return mode;
 }
 

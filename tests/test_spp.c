@@ -241,7 +241,8 @@ static void marching_an_exact_source_gives_the_exact_radiance(void **state) {
     double tau[3] = {0.5, 2, 3.9}, phi = 0, marched[18], exact[18];
     pps_grid at = {3, 6, 1, tau, mus, &phi};
     exact_source source = {dom, 4};
-    pps_march march = {slab, 0.6, exact_diffuse, &source};
+    pps_march march = {
+        .slab = slab, .mu0 = 0.6, .diffuse = exact_diffuse, .solution = &source};
     pps_march_radiance(&march, &at, marched);
     assert_int_equal(pps_dom_radiance(dom, &at, exact), PPS_OK);
     for (int i = 0; i < 18; i++) {

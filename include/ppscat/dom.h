@@ -77,6 +77,10 @@ PPS_API pps_status pps_dom_set_thickness(pps_dom *dom, double thickness);
 /* Solve for a beam of unit irradiance normal to itself, coming along mu0 in (0, 1]. */
 PPS_API pps_status pps_dom_solve(pps_dom *dom, double mu0);
 
+/* Solve for an isotropic radiance of 1 falling on the lit side instead of a beam. The
+ * outputs are then all of its light, what comes through uncollided included. */
+PPS_API pps_status pps_dom_solve_sky(pps_dom *dom);
+
 /* Diffuse radiance, 1/sr: radiance[(k * n_mu + j) * n_phi + i] at depth k, cosine j,
  * azimuth i. mu need not be a node. Allocates its scratch. */
 PPS_API pps_status pps_dom_radiance(const pps_dom *dom, const pps_grid *at,
