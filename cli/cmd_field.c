@@ -65,6 +65,8 @@ static int emit(const sweep_task *task, const sweep_worker *workers,
 
     if (!answer->refusal)
         rc = output_used(&job->out, workers->method, &answer->info);
+    if (!answer->refusal && option_given(job->out.call, OPT_EXPLAIN))
+        case_explain(at, &answer->info);
     case_row(medium, workers->method, at);
     for (size_t k = 0; k < at->depth->n; k++) {
         csv_format(at->depth->tau[k], depth);

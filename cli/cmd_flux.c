@@ -61,6 +61,8 @@ static int emit(const sweep_task *task, const sweep_worker *workers,
 
     if (!answer->refusal)
         rc = output_used(out, workers->method, &answer->info);
+    if (!answer->refusal && option_given(out->call, OPT_EXPLAIN))
+        case_explain(at, &answer->info);
     case_row(medium, workers->method, at);
     for (size_t k = 0; k < at->depth->n && rc == CLI_DONE; k++) {
         csv_fields(&out->csv, medium);

@@ -272,7 +272,8 @@ static int read_streams(const invocation *call, int *out) {
 }
 
 static int read_solver(const invocation *call, pps_options *options) {
-    int nodes = 0, delta_m = 0, rc = value_number(call, OPT_TOL, &options->tolerance);
+    int nodes = 0, delta_m = 0, of = 0;
+    int rc = value_number(call, OPT_TOL, &options->tolerance);
 
     if (rc == CLI_DONE)
         rc = read_streams(call, &options->streams);
@@ -280,6 +281,9 @@ static int read_solver(const invocation *call, pps_options *options) {
         rc = value_choice(call, OPT_NODES, &nodes);
     if (rc == CLI_DONE)
         rc = value_choice(call, OPT_DELTA_M, &delta_m);
+    if (rc == CLI_DONE)
+        rc = value_choice(call, OPT_TOL_OF, &of);
+    options->tolerance_of = (pps_tolerance_of)of;
     options->nodes = (pps_nodes)nodes;
     options->delta_m = (pps_delta_m)delta_m;
     if (rc == CLI_DONE && options->delta_m == PPS_DELTA_M_OFF &&

@@ -49,7 +49,7 @@ int output_end_row(output *out, const pps_method *method, const char *reason) {
 }
 
 int output_used(output *out, const pps_method *method, const pps_info *info) {
-    return used_add(&out->used, method, info);
+    return used_add(&out->used, info->used ? info->used : method, info);
 }
 
 static void report_refusals(const output *out) {

@@ -30,7 +30,7 @@ int output_open(output *out, const invocation *call);
 /* End a row; with a reason (static text), one that the method refused. */
 int output_end_row(output *out, const pps_method *method, const char *reason);
 
-/* Note what a method used for an output. */
+/* Note what a method used for an output; what `auto` picked counts as itself. */
 int output_used(output *out, const pps_method *method, const pps_info *info);
 
 /* Finish with rc, the outcome so far: report refusals, write the sidecar, name the

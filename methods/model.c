@@ -28,7 +28,8 @@ static bool options_valid(const pps_options *o) {
     return streams && !clash && o->nodes >= PPS_NODES_AUTO &&
            o->nodes <= PPS_NODES_GRADED && o->delta_m >= PPS_DELTA_M_AUTO &&
            o->delta_m <= PPS_DELTA_M_OFF && o->tolerance >= 0 && o->tolerance < 1 &&
-           light_valid(&o->light);
+           o->tolerance_of >= PPS_TOLERANCE_OF_FIELD &&
+           o->tolerance_of <= PPS_TOLERANCE_OF_TRANSMITTANCE && light_valid(&o->light);
 }
 
 pps_status pps_model_create(const pps_method *method, const pps_slab *slab,

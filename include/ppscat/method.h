@@ -30,6 +30,13 @@ typedef struct pps_light {
     double ground; /* Lambertian reflectance below the slab, 0..1; 0 is black */
 } pps_light;
 
+/* Which error `auto` holds to the tolerance. */
+typedef enum {
+    PPS_TOLERANCE_OF_FIELD, /* rms_rel of the radiance, as `ppscat error` has it */
+    PPS_TOLERANCE_OF_REFLECTANCE, /* relative, of the diffuse flux at the top */
+    PPS_TOLERANCE_OF_TRANSMITTANCE
+} pps_tolerance_of;
+
 /* Zero means default throughout; a method ignores what does not concern it. */
 typedef struct pps_options {
     int streams; /* of `exact`; 0 = as many as `tolerance` asks for */
@@ -37,9 +44,10 @@ typedef struct pps_options {
     pps_delta_m delta_m;
     double tolerance; /* 0 = 1e-6. For a radiance relative to max(its value, 1e-3 of
                          the largest of its case); for fluxes relative */
-    pps_light light;  /* beam and sky both 0: a beam of 1 */
-    uint64_t photons; /* of `mc`; 0 = 1e5 */
-    uint64_t seed;    /* of `mc` */
+    pps_tolerance_of tolerance_of; /* of `auto` */
+    pps_light light;               /* beam and sky both 0: a beam of 1 */
+    uint64_t photons;              /* of `mc`; 0 = 1e5 */
+    uint64_t seed;                 /* of `mc` */
 } pps_options;
 
 /* What a method used for the last output. */
@@ -48,6 +56,8 @@ typedef struct pps_info {
     pps_nodes nodes;
     bool delta_m;          /* the forward peak was scaled */
     double error_estimate; /* relative, as `tolerance`; NAN where the method has none */
+    const struct pps_method *used; /* what `auto` picked; else NULL */
+    bool by_table; /* ... with error_estimate a bound from its table of errors */
 } pps_info;
 
 typedef struct pps_method_ops pps_method_ops;

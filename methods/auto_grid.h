@@ -1,0 +1,54 @@
+/* The grid and the candidates of the error table behind the method `auto`; shared by the
+ * program that makes the table, the one that compiles it and the method that reads it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_METHODS_AUTO_GRID_H
+#define PPS_METHODS_AUTO_GRID_H
+
+/* Candidates, cheapest first: name and streams (of `exact`; 0 elsewhere). */
+#define PPS_AUTO_CANDIDATES(X)                                                         \
+    X("hemispheric", 0)                                                                \
+    X("single", 0)                                                                     \
+    X("eddington", 0)                                                                  \
+    X("spp-refined", 0)                                                                \
+    X("fourstream", 0)                                                                 \
+    X("exact", 8)                                                                      \
+    X("exact", 12)                                                                     \
+    X("exact", 16)                                                                     \
+    X("exact", 24)                                                                     \
+    X("exact", 32)                                                                     \
+    X("exact", 48)                                                                     \
+    X("exact", 64)                                                                     \
+    X("exact", 96)                                                                     \
+    X("exact", 128)
+
+/* What is kept of an error. */
+enum { PPS_AUTO_FIELD, PPS_AUTO_REFLECTANCE, PPS_AUTO_TRANSMITTANCE, PPS_AUTO_METRICS };
+
+/* Grid lines, ascending; the last thickness also stands for all above and a half-space. */
+static const double pps_auto_albedo[] = {0, 0.5, 0.8, 0.9, 0.95, 0.99, 0.999, 1};
+static const double pps_auto_g[] = {-0.8, -0.5, 0, 0.3, 0.5, 0.65, 0.8, 0.9};
+static const double pps_auto_thickness[] = {0.01, 0.05, 0.2, 0.6, 2, 5, 10, 30, 200};
+static const double pps_auto_mu0[] = {0.05, 0.12, 0.25, 0.5, 0.75, 1};
+
+enum {
+    PPS_AUTO_N_ALBEDO = sizeof pps_auto_albedo / sizeof pps_auto_albedo[0],
+    PPS_AUTO_N_G = sizeof pps_auto_g / sizeof pps_auto_g[0],
+    PPS_AUTO_N_THICKNESS = sizeof pps_auto_thickness / sizeof pps_auto_thickness[0],
+    PPS_AUTO_N_MU0 = sizeof pps_auto_mu0 / sizeof pps_auto_mu0[0],
+#define PPS_AUTO_COUNT(name, streams) +1
+    PPS_AUTO_N_CANDIDATES = 0 PPS_AUTO_CANDIDATES(PPS_AUTO_COUNT),
+#undef PPS_AUTO_COUNT
+    PPS_AUTO_N_CELLS =
+        PPS_AUTO_N_ALBEDO * PPS_AUTO_N_G * PPS_AUTO_N_THICKNESS * PPS_AUTO_N_MU0
+};
+
+/* An error as one character: fifths of a decade, rounded up, from 1e-12 ('0') to 1e3;
+ * '~' where the candidate cannot do the case. */
+enum { PPS_AUTO_PER_DECADE = 5, PPS_AUTO_LOWEST = -60, PPS_AUTO_HIGHEST = 15 };
+static inline char pps_auto_code(int level) {
+    return (char)('0' + level - PPS_AUTO_LOWEST);
+}
+static inline int pps_auto_level(char code) { return code - '0' + PPS_AUTO_LOWEST; }
+
+#endif
