@@ -127,7 +127,9 @@ static pps_status obtain(automatic *a, int index) {
         return PPS_OK;
     }
     pps_options opts = a->opts;
-    opts.streams = index == FALLBACK ? 0 : candidate[index].streams;
+    if (index != FALLBACK) {
+        opts.streams = candidate[index].streams;
+    }
     const pps_method *method =
         pps_method_find(index == FALLBACK ? "exact" : candidate[index].name);
     return method ? pps_model_create(method, &a->slab, &opts, &a->model[index])

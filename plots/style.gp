@@ -7,17 +7,27 @@ set datafile separator ','
 set datafile columnheaders
 set datafile missing NaN
 
-# The colours of Okabe and Ito, which people with any colour vision tell apart;
-# dashes where curves lie on each other.
+# The colours of Okabe and Ito, which people with any colour vision tell apart, and Tol's
+# muted ones for the many two-streams; dashes where curves lie on each other.
 colour(method) = method eq "exact"       ? 0x000000 : \
                  method eq "spp"         ? 0xD55E00 : \
                  method eq "spp-printed" ? 0xE69F00 : \
                  method eq "spp-refined" ? 0x0072B2 : \
                  method eq "single"      ? 0xCC79A7 : \
                  method eq "hemispheric" ? 0x009E73 : \
-                 method eq "eddington"   ? 0x56B4E9 : 0x999999
+                 method eq "eddington"   ? 0x56B4E9 : \
+                 method eq "fourstream"  ? 0x882255 : \
+                 method eq "spp-literal" ? 0xF0E442 : \
+                 method eq "twostream-eddington"              ? 0x88CCEE : \
+                 method eq "twostream-eddington-delta"        ? 0x332288 : \
+                 method eq "twostream-quadrature"             ? 0xDDCC77 : \
+                 method eq "twostream-quadrature-delta"       ? 0x999933 : \
+                 method eq "twostream-hemispheric-mean"       ? 0x44AA99 : \
+                 method eq "twostream-hemispheric-mean-delta" ? 0x117733 : \
+                 method eq "twostream-pifm"                   ? 0xCC6677 : \
+                 method eq "twostream-pifm-delta"             ? 0xAA4499 : 0x999999
 dash(method) = method eq "spp-printed" ? 4 : method eq "single" ? 3 : \
-               method eq "hemispheric" ? 2 : 1
+               method eq "hemispheric" ? 2 : method eq "spp-literal" ? 5 : 1
 
 # canvas(width, height) in pixels, as a macro: `@canvas 1200,800`.
 canvas = 'set terminal pngcairo enhanced font "DejaVu Sans,12" linewidth 1.4 background rgb "white" size'

@@ -71,11 +71,12 @@ static void set_depths(answer *a) {
     a->tau[2] = isinf(w) ? 30 : w;
 }
 
-/* Fluxes and radiances of a solved model. */
+/* Fluxes of a solved model, and radiances where its method has them. */
 static pps_status produce(pps_model *model, answer *a) {
     pps_grid grid = {N_DEPTHS, N_MU, N_PHI, a->tau, mus, phis};
     pps_status status = pps_model_flux(model, N_DEPTHS, a->tau, a->flux);
-    return status ? status : pps_model_radiance(model, &grid, a->radiance);
+    bool fields = pps_method_find(a->method)->fields;
+    return status || !fields ? status : pps_model_radiance(model, &grid, a->radiance);
 }
 
 /* One case from nothing; the status must be good. */
@@ -139,9 +140,10 @@ static void check_all_cases(int first_albedo, int end_albedo, check one) {
                 pps_model_free(model);
             }
         }
-        /* Few may be refused. */
+        /* Few may be refused, but by the method that is there to fail. */
         int all = (end_albedo - first_albedo) * N_ASYMMETRIES * N_THICKNESSES * N_BEAMS;
-        assert_true(checked > all / 2);
+        bool naive = strcmp(table[m]->name, "spp-literal") == 0;
+        assert_true(naive || checked > all / 2);
     }
 }
 
