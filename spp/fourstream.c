@@ -94,8 +94,8 @@ static matrix2 one_minus_scattering(const pps_fourstream *four, int first,
     return a;
 }
 
-/* det Ae; at m = 0 the product of its eigenvalues, 1 - albedo with sqrt(w) and the one of
- * p_2, which is orthogonal to it. */
+/* det Ae; at m = 0 the product of its eigenvalues, 1 - albedo with sqrt(w) and the one
+ * of p_2, which is orthogonal to it. */
 static double det_even(const pps_fourstream *four, int m, const matrix2 *ae,
                        double p[MOMENTS][2]) {
     if (m > 0) {
@@ -171,11 +171,13 @@ static pps_status find_modes(pps_fourstream *four, int m) {
  * f^n below. */
 static void find_peaks(pps_fourstream *four) {
     double x = four->tail_stretch, g = four->slab.g, gn = 1, fn = 1;
-    /* What follows a backward peak is twice as far from it: two are enough. */
-    int n = g < 0 ? 2 : g > 0 ? (int)ceil(log(1e-3) / log(x)) : 0;
-    n = n > PPS_FOURSTREAM_PEAKS ? PPS_FOURSTREAM_PEAKS : n;
-    four->n_peaks = g > 0 && n < 1 ? 1 : n;
-    for (n = 1; n <= four->n_peaks; n++) {
+    if (g < 0) {
+        four->n_peaks = 2;
+    } else if (g > 0) { /* until x^n < 1e-3 */
+        double enough = ceil(log(1e-3) / log(x));
+        four->n_peaks = (int)fmax(1, fmin(enough, PPS_FOURSTREAM_PEAKS));
+    }
+    for (int n = 1; n <= four->n_peaks; n++) {
         double gl = 1;
         gn *= g;
         fn *= four->f;
@@ -187,20 +189,35 @@ static void find_peaks(pps_fourstream *four) {
     }
 }
 
+/* (2l+1) (g^l - f)/(1 - f); with f = g^4 both differences hold the factor 1 - g. */
+static void scale_moments(pps_fourstream *four) {
+    double g = four->slab.g, power = 1;
+    for (int l = 0; l < MOMENTS; l++) {
+        double share = 1; /* (1 - g^(4 - l))/(1 - g^4) */
+        if (g > 0) {
+            double sum = 0;
+            for (int i = 0; i < MOMENTS - l; i++) {
+                sum = 1 + g * sum;
+            }
+            share = sum / ((1 + g) * (1 + g * g));
+        }
+        four->strength[l] = (2 * l + 1) * power * share;
+        power *= g;
+    }
+}
+
 pps_status pps_fourstream_init(pps_fourstream *four, const pps_slab *slab,
                                const pps_fourstream_nodes *nodes) {
-    double g = slab->g, albedo = slab->albedo, f = g > 0 ? g * g * g * g : 0;
-    *four = (pps_fourstream){.slab = *slab, .nodes = *nodes, .f = f};
-    four->tail_stretch = albedo * f;
-    four->stretch = (1 - albedo) + albedo * (1 - f);
-    four->albedo = albedo * (1 - f) / four->stretch;
+    double g = slab->g, albedo = slab->albedo;
+    double rest = g > 0 ? (1 - g) * (1 + g) * (1 + g * g) : 1; /* 1 - f */
+    *four = (pps_fourstream){.slab = *slab, .nodes = *nodes};
+    four->f = g > 0 ? g * g * g * g : 0;
+    four->tail_stretch = albedo * four->f;
+    four->stretch = (1 - albedo) + albedo * rest;
+    four->albedo = albedo * rest / four->stretch;
     four->co_albedo = (1 - albedo) / four->stretch;
     four->n_orders = g == 0 ? 1 : ORDERS;
-    double chi = 1;
-    for (int l = 0; l < MOMENTS; l++) {
-        four->strength[l] = (2 * l + 1) * (chi - f) / (1 - f);
-        chi *= g;
-    }
+    scale_moments(four);
     for (int m = 0; m < four->n_orders; m++) {
         pps_status status = find_modes(four, m);
         if (status) {
@@ -230,8 +247,9 @@ static void light_modes(pps_fourstream *four, int m, double thickness) {
     }
 }
 
-/* Edge values of the homogeneous part from what the boundary conditions G psi + phi = top,
- * G psi - phi = 0 still ask for: the four solves of docs/theory.md section 4. */
+/* Edge values of the homogeneous part from what the boundary conditions
+ * G psi + phi = top, G psi - phi = 0 still ask for: the solves of docs/theory.md,
+ * section 4. */
 static void close_modes(pps_fourstream_order *order, double thickness,
                         const double at_top[2], const double at_bottom[2]) {
     double half = thickness / 2, a[2][2], b[2][2], cross[2][2];

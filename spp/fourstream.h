@@ -17,8 +17,8 @@ enum {
     PPS_FOURSTREAM_PEAK_POINTS = 8, /* of the quadrature along short paths */
 };
 
-/* Nodes and weights of a hemisphere, ascending. Their sums of 1, mu and mu^2 must be the
- * integrals, 1, 1/2 and 1/3. */
+/* Nodes and weights of a hemisphere, ascending. Their sums of 1, mu and mu^2 must be
+ * the integrals, 1, 1/2 and 1/3. */
 typedef struct pps_fourstream_nodes {
     double mu[2], weight[2];
 } pps_fourstream_nodes;
@@ -55,8 +55,8 @@ typedef struct pps_fourstream {
     double point[PPS_FOURSTREAM_PEAK_POINTS], point_weight[PPS_FOURSTREAM_PEAK_POINTS];
 } pps_fourstream;
 
-/* The eigen solution of (albedo, g). INDEFINITE where four moments of the phase function
- * have no positive definite form on the nodes (g near -1). */
+/* The eigen solution of (albedo, g). INDEFINITE where four moments of the phase
+ * function have no positive definite form on the nodes (g < -0.99). */
 pps_status pps_fourstream_init(pps_fourstream *four, const pps_slab *slab,
                                const pps_fourstream_nodes *nodes);
 

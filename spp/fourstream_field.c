@@ -1,27 +1,32 @@
 /* The method "fourstream": four streams in closed form, and the aureole.
  *
- * With f = g^4 for g > 0 (delta-M, Wiscombe77) the phase function is P = (1 - f) P* + f D.
- * P* has four moments, those of D are 1 below l = 4 and g^(l-4) from there on, and the
- * discrete problem (fourstream.c) takes light scattered by D as not scattered. So
+ * With f = g^4 for g > 0 (delta-M, Wiscombe77) the phase function is
+ * P = (1 - f) P* + f D. P* has four moments; those of D are 1 below l = 4 and g^(l-4)
+ * from there on, and the discrete problem (fourstream.c) takes light scattered by D as
+ * not scattered. So
  *
- *   radiance = multiple scattering by P*, m = 0, 1, 2, its source integrated along the ray
+ *   radiance = multiple scattering by P*, m = 0, 1, 2, its source integrated along rays
  *            + single scattering by (1 - f) P*, in the scaled optical depth
- *            + the aureole: light scattered n = 1, 2, .. times by D and by nothing else,
- *                sum over n of (albedo f)^n D^n(Theta) c int e^(-s) s^(n-1)/n! dt.
+ *            + the aureole: light scattered n = 1, 2, .. times by D and nothing else,
+ *              sum over n of (albedo f)^n D^n(Theta) c int e^(-s) s^(n-1)/n! dt.
  *
- * D^n is D folded with itself n times: Henyey-Greenstein of g^n and four Legendre terms,
- * closed. Of the n scatterings one is taken to turn the light from mu0 to mu, at t, the
- * others, before or after it, to leave its slant: s(t) = t/mu0 + |tau - t|/|mu|, and each
- * of the n is the one with the same right. The term n = 2 has the place of the IMS
- * correction of NT88, whose light always turns last. For g < 0, where f = 0, light
- * scattered back twice forms a forward peak in the same way (n = 2; s does not enter).
+ * D^n is D folded with itself n times: Henyey-Greenstein of g^n and four Legendre
+ * terms, closed. Of the n scatterings one is taken to turn the light from mu0 to mu, at
+ * t, the others, before or after it, to leave its slant, s = t/mu0 + |tau - t|/|mu|;
+ * each of the n may be the one. The term n = 2 has the place of the IMS correction of
+ * NT88, whose light always turns last. For g < 0, where f = 0, light that two backward
+ * peaks turn about twice forms a forward peak in the same way.
  *
- * Tried, as the largest (mean) rms_rel in percent over albedo .5 .. .999, thickness
- * 1 .. 100; g = .5, .8, .9:  TMS alone 3.4, 68, 423;  + IMS 3.3, 12.9, 86;  all n, turning
- * last 3.3, 12.1, 26;  all n, any turning 3.3 (1.3), 9.2 (5.6), 18 (10): in use.
- * Without m = 2 3.7, 11.8, 20;  with m = 3 3.3, 9.1, 18.  Three or five moments 2.9, 12.8,
- * 23 and 4.6, 15.5, 19;  f = .9 g^4 3.5, 11.2, 21;  f = 1.1 g^4 3.2, 10.0, 22.
- * mu_1 = .20 .. .29 instead of Gauss's .2113: .23 is best, 1.9 (1.3), 9.4 (5.5), 18 (10).
+ * Tried, as the largest (mean) rms_rel in percent over albedo .5 to .999 and thickness
+ * 1 to 100, for g = .5, .8, .9:
+ *   Gauss nodes: TMS alone                       3.4        68         423
+ *     + IMS                                      3.3        12.9       86
+ *     + all n, turning last                      3.3        12.1       26
+ *     + all n, any turning                       3.3 (1.3)   9.2 (5.6) 18 (10)
+ *     the same without m = 2; with m = 3         3.7; 3.3   11.8; 9.1  20; 18
+ *     with three moments; with five              2.9; 4.6   12.8; 15.5 23; 19
+ *     f = .9 g^4; f = 1.1 g^4                    3.5; 3.2   11.2; 10.0 21; 22
+ *   mu_1 = .23 (best of .20 to .29): in use      1.9 (1.3)   9.4 (5.5) 18 (10)
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
@@ -150,9 +155,9 @@ static void forward_weights(const pps_fourstream *four, const depth *d,
                             const pps_ray *ray, double *weight) {
     double q = 1 / four->mu0, c = ray->c, power = 1, scale;
     double x = four->slab.thickness - d->tau;
-    double near = q * d->tau; /* s of light that turns here, and of light that */
-    double far = ray->down ? c * d->tau : q * four->slab.thickness + c * x; /* turns at
-                                                                   the end of the ray */
+    /* s of light that turns here, and of light that turns where the ray enters */
+    double near = q * d->tau;
+    double far = ray->down ? c * d->tau : q * four->slab.thickness + c * x;
     double low = fmin(near, far), high = fmax(near, far);
     if (high - low < 1) {
         path_means(four, low, high, weight);
@@ -167,9 +172,9 @@ static void forward_weights(const pps_fourstream *four, const depth *d,
     }
 }
 
-/* Turned about at t and again at t'. Between, the light runs along -mu0 or along -mu, with
- * the same right:
- *   c int e^(-c |tau - t'|) [rate int e^(-rate |t - t'|) e^(-q t) dt] dt', rate q or c. */
+/* Turned about at t and again at t'. Between, the light runs along -mu0 or along -mu,
+ * with the same right:
+ *   c int e^(-c |tau - t'|) [r int e^(-r |t - t'|) e^(-q t) dt] dt', r = q or c. */
 static double back_twice(const pps_fourstream *four, const pps_ray *ray) {
     double q = 1 / four->mu0, c = ray->c, w = four->slab.thickness, by_q, by_c;
     double end = isinf(w) ? 0 : exp(-q * w); /* at t = w, where light that rises ends */
@@ -239,7 +244,7 @@ static void azimuths_at(const pps_fourstream *four, double mu, size_t n,
 static void radiances(const pps_fourstream *four, const depth *d, double mu,
                       const projection *view, const azimuths *a, double *radiance) {
     pps_ray ray = ray_at(four, d, mu);
-    double term[ORDERS] = {0}, weight[PEAKS + 1];
+    double term[ORDERS] = {0}, weight[PEAKS + 1] = {0};
     int n_terms = n_orders(four);
     for (int m = 0; m < n_terms; m++) {
         term[m] = multiple(four, m, d, &ray, view);
@@ -380,8 +385,9 @@ const pps_method pps_method_fourstream = {
     .cost = "about forty exponentials a ray, one phase function a direction",
     .summary = "four streams in closed form, marched along the ray, with the aureole",
     .limits =
-        "2 % for |g| <= 0.5, 4-9 % at g = 0.8, 20 % at g = 0.9 or -0.8 (thickness "
-        "1 and up); fluxes are the four streams' own; refuses g near -1",
+        "at most 2.5 % for |g| <= 0.5, 9.4 % at g = 0.8, 20 % at g = 0.9 or -0.8 "
+        "(rms, thickness 1 and up; two to three times that at 0.3); fluxes within "
+        "2 % of what falls in; refuses g < -0.99",
     .fields = true,
     .fluxes = true,
     .half_space = true,

@@ -4,10 +4,10 @@
  *   D(tau) = c1 alpha e^(-lambda tau) + c2 e^(-tau/mu0) + c3 e^(lambda tau)
  *   U(tau) = c1 e^(-lambda tau) + c3 alpha e^(lambda tau)
  *
- * It is there to be compared with spp.c, which is the same function in a form that holds.
- * Here e^(lambda w) overflows at lambda w > 709, alpha is 0/0 at albedo 0 and cancels as
- * albedo or the backward share R -> 0, c1 and c3 are 0/0 at albedo 1. What comes out as no
- * number is refused; digits lost short of that are left for all to see.
+ * It is there to be compared with spp.c, which is the same function in a form that
+ * holds. Here e^(lambda w) overflows at lambda w > 709, alpha is 0/0 at albedo 0 and
+ * cancels as albedo or the backward share R -> 0, c1 and c3 are 0/0 at albedo 1. What
+ * comes out as no number is refused; digits lost short of that are left for all to see.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>

@@ -4,13 +4,13 @@
  *   e = gamma1 - gamma2 = e0 (1 - albedo)
  *   f = gamma1 + gamma2 = f0 - albedo (f1 + f2 g)
  *   1 - 2 gamma3        = b0 g mu0
- * In this form nothing cancels as albedo -> 1, as the printed gamma1 - gamma2 does. Solved
- * as one mode, a scheme is finite at albedo 0 and 1, in a half-space and on resonance
- * (k = 1/mu0). What it says is not clipped: the closures themselves allow negative fluxes,
- * and more light out than in.
+ * In this form nothing cancels as albedo -> 1, as the printed gamma1 - gamma2 does.
+ * Solved as one mode, a scheme is finite at albedo 0 and 1, in a half-space and on
+ * resonance (k = 1/mu0). What it says is not clipped: the closures themselves allow
+ * negative fluxes, and more light out than in.
  *
- * With delta scaling (JWW76) the share g^2 of the scattering goes straight on; that light
- * is reported as diffuse, which it is in the true problem.
+ * With delta scaling (JWW76) the share g^2 of the scattering goes straight on; that
+ * light is reported as diffuse, which it is in the true problem.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
@@ -132,10 +132,10 @@ static pps_status scheme_flux(void *state, size_t n, const double *tau,
                                             .solve_sky = scheme_solve_sky,             \
                                             .flux = scheme_flux};                      \
     const pps_method pps_method_##id = {                                               \
-        .name = method_name,                                                           \
+        .name = (method_name),                                                         \
         .cost = "three exponentials a depth",                                          \
-        .summary = text,                                                               \
-        .limits = limits_text,                                                         \
+        .summary = (text),                                                             \
+        .limits = (limits_text),                                                       \
         .fields = false,                                                               \
         .fluxes = true,                                                                \
         .half_space = true,                                                            \

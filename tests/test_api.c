@@ -169,7 +169,9 @@ static void every_method_refuses_bad_beams_and_thicknesses(void **state) {
         pps_model *model;
         assert_int_equal(pps_model_create(table[m], &good, NULL, &model), PPS_OK);
         for (int i = 0; i < N_BEAMS; i++) {
-            assert_int_equal(pps_model_solve(model, 1, beams[i].mu0), beams[i].status);
+            pps_status status = pps_model_solve(model, 1, beams[i].mu0);
+            bool grazing = !beams[i].status && status == PPS_ERR_UNSUPPORTED;
+            assert_true(status == beams[i].status || grazing);
         }
         for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
             assert_int_equal(pps_model_solve(model, bad[i], 0.5), PPS_ERR_ARGUMENT);
@@ -388,10 +390,16 @@ typedef struct {
     double radiance[N_RADIANCES];
 } answer;
 
+/* A method of fluxes only refuses radiances, which are then 0. */
 static pps_status output_of_model(pps_model *model, answer *out) {
     pps_status status = pps_model_solve(model, 1, 0.5);
     status = status ? status : pps_model_flux(model, 3, taus, out->flux);
-    return status ? status : pps_model_radiance(model, &grid, out->radiance);
+    memset(out->radiance, 0, sizeof out->radiance);
+    if (status) {
+        return status;
+    }
+    status = pps_model_radiance(model, &grid, out->radiance);
+    return status == PPS_ERR_UNSUPPORTED ? PPS_OK : status;
 }
 
 static const pps_options coarse = {.tolerance = 1e-3};

@@ -1,5 +1,5 @@
-/* Four streams in closed form: against the solver on the same nodes, identities, and the
- * published error.
+/* Four streams in closed form: against the solver on the same nodes, identities, and
+ * the published error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
@@ -226,7 +226,7 @@ static void weak_scattering_is_single_scattering(void **state) {
 static void everything_is_finite_or_refused(void **state) {
     (void)state;
     static const double albedos[] = {0, 1e-300, 0.5, 1 - 1e-15, 1};
-    static const double gs[] = {-0.999, -0.95, -1e-9, 1e-100, 1e-3, 0.5, 0.999999};
+    static const double gs[] = {-0.999, -0.95, -1e-9, 1e-100, 1e-3, 0.5, 1 - 1e-16};
     static const double ws[] = {1e-9, 1, 1e4, 1e9, INFINITY};
     for (int i = 0; i < 5 * 7 * 5 * 4; i++) {
         pps_slab slab = {albedos[i % 5], gs[i / 5 % 7], ws[i / 35 % 5]};
@@ -282,6 +282,22 @@ static void it_is_smooth_on_resonance(void **state) {
             /* phi = 0 is the peak itself, which bends by 1e-6^2 / (1 - g)^2. */
             assert_close(radiance[1][j], mean, 1e-10, 1e-15);
         }
+    }
+}
+
+/* At tau = 1 the slants 1/mu0 and 1/mu differ by 1 where the aureole goes over from one
+ * form of its path integrals to the other. */
+static void the_aureole_is_smooth_between_its_forms(void **state) {
+    (void)state;
+    for (int i = 0; i < 2 * 4; i++) {
+        double g = i % 2 ? 0.97 : 0.6, mu0 = beams[2 + i / 2 % 2], tau = 1;
+        double edge = 1 / (1 / mu0 + (i < 4 ? 1 : 3)), radiance[2];
+        double mu[2] = {edge * (1 - 1e-10), edge * (1 + 1e-10)}, phi = 10;
+        pps_grid at = {1, 2, 1, &tau, mu, &phi};
+        pps_model *model = solve((pps_slab){0.97, g, 4}, mu0, NULL);
+        assert_int_equal(pps_model_radiance(model, &at, radiance), PPS_OK);
+        assert_close(radiance[0], radiance[1], 1e-8, 0);
+        pps_model_free(model);
     }
 }
 
@@ -386,6 +402,7 @@ int main(void) {
         cmocka_unit_test(weak_scattering_is_single_scattering),
         cmocka_unit_test(everything_is_finite_or_refused),
         cmocka_unit_test(it_is_smooth_on_resonance),
+        cmocka_unit_test(the_aureole_is_smooth_between_its_forms),
         cmocka_unit_test(the_published_error_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

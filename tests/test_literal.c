@@ -1,5 +1,5 @@
-/* SPP evaluated as printed in shape: right where it can be, refused where it is no number,
- * and visibly short of digits in between.
+/* SPP evaluated as printed in shape: right where it can be, refused where it is no
+ * number, and visibly short of digits in between.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
