@@ -3,7 +3,8 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(cmake ninja-build gcc libc6-dev pkg-config
-    liblapacke-dev libopenblas-dev libgsl-dev libjansson-dev libcmocka-dev)
+    liblapacke-dev libopenblas-dev libgsl-dev librandom123-dev
+    libjansson-dev libcmocka-dev)
 
 say() { printf '== %s\n' "$*"; }
 

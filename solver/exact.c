@@ -135,7 +135,7 @@ static pps_status rung_fluxes(exact *e, int index, int streams, const request *w
 /* As many orders as g and the tolerance ask for, doubled while the last ones still add. */
 static pps_status rung_radiance(exact *e, int index, int streams, double azimuth,
                                 const request *what, double *radiance) {
-    int orders = e->sky ? 1 : pps_dom_orders_for(e->slab.g, azimuth, streams);
+    int orders = e->mu0 == 1 ? 1 : pps_dom_orders_for(e->slab.g, azimuth, streams);
     for (;; orders *= 2) {
         pps_dom *dom;
         double rest;

@@ -191,7 +191,8 @@ pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_g
     }
     first_light(dom, &s, radiance);
     int small_in_a_row = 0, m = 0;
-    n_orders = dom->sky ? 1 : n_orders; /* nothing depends on azimuth */
+    bool no_azimuth = dom->sky || dom->mu0 == 1; /* nothing depends on it */
+    n_orders = no_azimuth ? 1 : n_orders;
     for (; m < n_orders && small_in_a_row < 2; m++) {
         double *swap = s.last_term;
         s.last_term = s.term;
@@ -199,7 +200,7 @@ pps_status pps_dom_radiance_orders(const pps_dom *dom, int n_orders, const pps_g
         order_terms(dom, &dom->order[m], &s);
         small_in_a_row = add_order(dom, m, &s, radiance) ? small_in_a_row + 1 : 0;
     }
-    bool complete = m == dom->discrete.n_moments || dom->slab.g == 0 || dom->sky;
+    bool complete = m == dom->discrete.n_moments || dom->slab.g == 0 || no_azimuth;
     *rest = complete ? 0 : azimuth_rest(&s, radiance);
     scratch_free(&s);
     return PPS_OK;

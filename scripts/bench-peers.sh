@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Other programs for the same problem, beside ppscat on one core: speed, error, failures.
+# Usage: scripts/bench-peers.sh [--quick] [BUILD-FOLDER]
+#
+# Optional, and no part of the build: ppscat needs neither Python nor the network. The
+# peers come from PyPI, pinned, into build/peers/venv; results go to build/peers:
+# chart.csv (the columns of `ppscat chart`) and the tables of docs/peers.md.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+quick=()
+if [[ ${1-} == --quick ]]; then
+    quick=(--quick)
+    shift
+fi
+(($# <= 1)) || die "usage: scripts/bench-peers.sh [--quick] [BUILD-FOLDER]"
+
+out=$root/build/peers
+peers=$root/scripts/peers
+need "${build_packages[@]}" python3 python3-venv
+if (($#)); then
+    build=$(cd "$1" && pwd)
+else
+    build=$root/build/release
+    configure release
+    cmake --build --preset release --target ppscat
+fi
+[[ -e $build/libppscat.so ]] || die "no libppscat.so in $build"
+mkdir -p "$out"
+
+say "peers, in build/peers/venv"
+venv=$out/venv
+[[ -x $venv/bin/pip ]] || python3 -m venv "$venv"
+while read -r pinned; do
+    "$venv/bin/pip" install -q --disable-pip-version-check --only-binary :all: \
+        -c "$peers/requirements.txt" "$pinned" ||
+        say "cannot be had, skipped: $pinned"
+done < <(grep -v '^#' "$peers/requirements.txt")
+
+say "ppscat's timing loops"
+"${CC:-cc}" -std=c11 -O2 -D_POSIX_C_SOURCE=200809L -shared -fPIC -I "$root/include" \
+    -o "$out/peers_ppscat.so" "$root/tests/bench/peers_ppscat.c" \
+    -L "$build" -lppscat -Wl,-rpath,"$build"
+
+# One thread, one core: the last of those we may use.
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1
+cores=$(taskset -cp $$)
+core=${cores##*[ ,-]}
+say "side by side on core $core"
+taskset -c "$core" "$venv/bin/python" "$peers/bench.py" "${quick[@]}" \
+    --shim "$out/peers_ppscat.so" --out "$out" \
+    --hard-cases "$root/data/reference/discrete_hard_cases.csv"
+say "the results"
+printf '%s\n' "$out"/*.csv "$out"/*.md
