@@ -71,13 +71,46 @@ static const column table_columns[] = {
      "mean over angles and depths of the root mean square error / mean exact radiance"},
     {"method", "string", NULL, "name of the method measured"},
     {0}};
+
+static const column chart_columns[] = {
+    {"method", "string", NULL, "name of the method"},
+    {"setting", "string", NULL, "what it was asked for: streams=, photons=, tol=, or -"},
+    {"albedo", "double", "1", "single-scattering albedo"},
+    {"g", "double", "1", "asymmetry of the Henyey-Greenstein phase function"},
+    {"thickness", "double", "1", "optical thickness; inf is a half-space"},
+    {"mu0", "double", "1", "cosine of the beam's angle of incidence"},
+    {"rms_abs", "double", "1/sr",
+     "root mean square difference of radiance over directions and depths"},
+    {"rms_rel", "double", "1",
+     "mean over depths of the root mean square difference / mean exact radiance"},
+    {"reflectance_error", "double", "1",
+     "relative error of the diffuse upward flux at depth 0"},
+    {"setup_seconds", "double", "s",
+     "time from nothing to the first answer, less `seconds`"},
+    {"seconds", "double", "s",
+     "time of one more evaluation: another mu0, and radiances at all depths and "
+     "directions (fluxes at all depths where the method has no radiances)"},
+    {"evaluations", "integer", "1", "evaluations timed for `seconds`"},
+    {0}};
+
+static const column stability_columns[] = {
+    CASE_COLUMNS,
+    {"status", "string", NULL,
+     "ok, inaccurate, not_finite, negative, refused or too_slow (over 10 s)"},
+    {"error", "double", "1",
+     "largest relative error of what is compared; empty where there is nothing to"},
+    {"seconds", "double", "s",
+     "processor time of this case; models are kept from the case before it, so that "
+     "the first of an albedo and g has their making in it"},
+    {0}};
 /* clang-format on */
 
 const column *columns_of(subcommand_id subcommand) {
     static const column *const tables[SUB_COUNT] = {
-        [SUB_METHODS] = methods_columns, [SUB_FIELD] = field_columns,
-        [SUB_FLUX] = flux_columns,       [SUB_ERROR] = error_columns,
-        [SUB_TABLE] = table_columns,
+        [SUB_METHODS] = methods_columns,     [SUB_FIELD] = field_columns,
+        [SUB_FLUX] = flux_columns,           [SUB_ERROR] = error_columns,
+        [SUB_TABLE] = table_columns,         [SUB_CHART] = chart_columns,
+        [SUB_STABILITY] = stability_columns,
     };
 
     return tables[subcommand];

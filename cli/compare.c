@@ -90,45 +90,49 @@ static int solve(const sweep_task *task, const sweep_worker *worker,
     return rc == CLI_DONE ? solve_fluxes(worker, at, a) : rc;
 }
 
-/* x / whole; 0 / 0 is no error at all, x / 0 has no meaning. */
-static double relative(double x, double whole) {
+double compare_relative(double x, double whole) {
     if (whole > 0)
         return x / whole;
     return x == 0 ? 0 : CSV_EMPTY;
 }
 
 /* Means over the directions at depth k: of the squared difference, of the exact. */
-static void compare_depth(const case_grid *grid, size_t k, const answer *a,
-                          const answer *exact, double *mean_square, double *mean) {
+static void compare_depth(const case_grid *grid, size_t k, const double *got,
+                          const double *want, double *mean_square, double *mean) {
     size_t at = k * grid->mu.n * grid->phi.n;
 
     *mean_square = *mean = 0;
     for (size_t j = 0; j < grid->mu.n; j++) {
         for (size_t i = 0; i < grid->phi.n; i++, at++) {
             double weight = grid->mu_weight[j] * grid->phi_weight[i];
-            double difference = a->radiance[at] - exact->radiance[at];
+            double difference = got[at] - want[at];
             *mean_square += weight * difference * difference;
-            *mean += weight * exact->radiance[at];
+            *mean += weight * want[at];
         }
     }
 }
 
+void compare_fields(const case_grid *grid, size_t n_depths, const double *got,
+                    const double *want, comparison *c) {
+    size_t n = n_depths * grid->mu.n * grid->phi.n;
+
+    for (size_t k = 0; k < n_depths; k++) {
+        double mean_square, mean;
+        compare_depth(grid, k, got, want, &mean_square, &mean);
+        c->mean_square += mean_square / (double)n_depths;
+        c->rms_rel += compare_relative(sqrt(mean_square), mean) / (double)n_depths;
+    }
+    for (size_t i = 0; i < n; i++)
+        c->max_abs = fmax(c->max_abs, fabs(got[i] - want[i]));
+}
+
 static void compare(const case_grid *grid, const sweep_case *at, const answer *a,
                     const answer *exact, comparison *c) {
-    double n_depths = (double)at->depth->n;
-
-    for (size_t k = 0; k < at->depth->n; k++) {
-        double mean_square, mean;
-        compare_depth(grid, k, a, exact, &mean_square, &mean);
-        c->mean_square += mean_square / n_depths;
-        c->rms_rel += relative(sqrt(mean_square), mean) / n_depths;
-    }
-    for (size_t i = 0; i < n_radiances(grid, at); i++)
-        c->max_abs = fmax(c->max_abs, fabs(a->radiance[i] - exact->radiance[i]));
+    compare_fields(grid, at->depth->n, a->radiance, exact->radiance, c);
     c->reflectance_error =
-        relative(fabs(a->reflected - exact->reflected), exact->reflected);
+        compare_relative(fabs(a->reflected - exact->reflected), exact->reflected);
     c->transmittance_error =
-        relative(fabs(a->transmitted - exact->transmitted), exact->transmitted);
+        compare_relative(fabs(a->transmitted - exact->transmitted), exact->transmitted);
     c->seconds = a->seconds;
 }
 

@@ -28,4 +28,12 @@ int compare_run(const case_grid *grid, output *out, comparison *result);
 /* How many results there are. */
 size_t compare_count(const case_grid *grid);
 
+/* Add the differences of two fields over n_depths and the directions of a GRID_ERROR grid
+ * to the first three members of c, which are 0 before. */
+void compare_fields(const case_grid *grid, size_t n_depths, const double *got,
+                    const double *want, comparison *c);
+
+/* x / whole; 0 / 0 is no error at all, x / 0 has no meaning: NAN. */
+double compare_relative(double x, double whole);
+
 #endif

@@ -25,9 +25,19 @@ colour(method) = method eq "exact"       ? 0x000000 : \
                  method eq "twostream-hemispheric-mean"       ? 0x44AA99 : \
                  method eq "twostream-hemispheric-mean-delta" ? 0x117733 : \
                  method eq "twostream-pifm"                   ? 0xCC6677 : \
-                 method eq "twostream-pifm-delta"             ? 0xAA4499 : 0x999999
+                 method eq "twostream-pifm-delta"             ? 0xAA4499 : \
+                 method eq "adding"      ? 0x8C510A : \
+                 method eq "rk"          ? 0x762A83 : \
+                 method eq "rk-shooting" ? 0xB58BC9 : \
+                 method eq "mc"          ? 0xCC0000 : \
+                 method eq "auto"        ? 0x777777 : 0x999999
 dash(method) = method eq "spp-printed" ? 4 : method eq "single" ? 3 : \
                method eq "hemispheric" ? 2 : method eq "spp-literal" ? 5 : 1
+
+# The shape of a point: discs for closed forms, others for what can be turned finer.
+symbol(method) = method eq "adding"      ? 5 : method eq "mc"   ? 9 : \
+                 method eq "rk-shooting" ? 11 : method eq "rk"  ? 13 : \
+                 method eq "auto"        ? 15 : 7
 
 # canvas(width, height) in pixels, as a macro: `@canvas 1200,800`.
 canvas = 'set terminal pngcairo enhanced font "DejaVu Sans,12" linewidth 1.4 background rgb "white" size'

@@ -38,7 +38,7 @@ static const pps_light beam = {.beam = 1}, sky = {.sky = 1};
 static void isotropic_fluxes_to_12_digits(void **state) {
     (void)state;
     support_table t = support_read("slab_isotropic_flux.csv");
-    for (size_t i = 0; i < t.n_rows; i += 4) {
+    for (size_t i = 0; i < t.n_rows; i += 9) {
         const double *row = t.value + i * t.n_columns;
         double w = row[0], mu0 = row[2], tau[2] = {0, w};
         pps_flux flux[2];
@@ -50,11 +50,11 @@ static void isotropic_fluxes_to_12_digits(void **state) {
     support_table_free(&t);
 }
 
-/* Columns: g, omega, w, mu0, R, Tdif, Tdir, Umid, Dmid, R_sph, Tdif_sph. */
+/* Columns: g, omega, w, mu0, R, Tdif, Tdir, Umid, Dmid, R_sph, Tdif_sph. A sample. */
 static void anisotropic_fluxes_to_12_digits(void **state) {
     (void)state;
     support_table t = support_read("slab_hg_flux.csv");
-    for (size_t i = 0; i < t.n_rows; i++) {
+    for (size_t i = 0; i < t.n_rows; i += 4) {
         const double *row = t.value + i * t.n_columns;
         double w = row[2], mu0 = row[3], tau[3] = {0, w / 2, w};
         pps_flux flux[3];
@@ -84,7 +84,7 @@ static double uncollided(double w) {
 static void sky_response_to_12_digits(void **state) {
     (void)state;
     support_table t = support_read("slab_hg_flux.csv");
-    for (size_t i = 0; i < t.n_rows; i += 3) { /* three mu0 a slab */
+    for (size_t i = 0; i < t.n_rows; i += 6) { /* three mu0 a slab */
         const double *row = t.value + i * t.n_columns;
         double w = row[2], tau[2] = {0, w};
         pps_flux flux[2];
@@ -297,7 +297,7 @@ static void lights_superpose(void **state) {
 static void half_space_follows_the_h_function(void **state) {
     (void)state;
     support_table t = support_read("hfunction_isotropic.csv");
-    for (size_t i = 0; i < t.n_rows; i += 11) {
+    for (size_t i = 0; i < t.n_rows; i += 37) {
         const double *row = t.value + i * t.n_columns;
         double tau = 0;
         pps_flux flux;
@@ -340,7 +340,7 @@ static void what_cannot_be_met_is_said(void **state) {
     double tau = 0, mu = -0.5, phi = 0, radiance;
     pps_grid at = {1, 1, 1, &tau, &mu, &phi};
     pps_model *model = create(0.9, 0.99, 1, 0.5, 1e-8, beam);
-    assert_int_equal(pps_model_radiance(model, &at, &radiance), PPS_ERR_TOLERANCE);
+    assert_int_equal(pps_model_radiance(model, &at, &radiance), PPS_ERR_UNSUPPORTED);
     pps_model_free(model);
 }
 

@@ -93,7 +93,7 @@ static const struct {
     {"table 1 2", "table", "'2'", "one N"},
     {"table 1 --albedo 0.5", "--albedo", "table", "--help"},
     {"fields", "fields", "did you mean 'field'", "flux"},
-    {"chart", "chart", "unknown subcommand", "field"},
+    {"melt", "melt", "unknown subcommand", "field"},
     {"--albedo 0.5", "--albedo", "subcommand", "--help"},
 };
 
