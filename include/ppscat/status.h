@@ -21,7 +21,10 @@ extern "C" {
       "take more streams or scale the forward peak (delta-M)")                         \
     X(PPS_ERR_TOLERANCE,                                                               \
       "the tolerance was not reached with the most streams allowed")                   \
-    X(PPS_ERR_UNSUPPORTED, "the method does not cover this case")
+    X(PPS_ERR_UNSUPPORTED, "the method does not cover this case")                      \
+    X(PPS_ERR_FILE, "a file cannot be read or written")                                \
+    X(PPS_ERR_FORMAT, "the contents of a file are not what they should be")            \
+    X(PPS_ERR_CANCELLED, "stopped on request")
 
 typedef enum {
 #define PPS_STATUS_ENUM(code, text) code,

@@ -1,0 +1,63 @@
+/* The scene on a grid of cells: how much leaf each holds, and how deep it lies.
+ *
+ * All light models but the per-leaf one read these. Lengths along rays are optical: a unit
+ * is a mean free path. Leaves of random orientation have the extinction sigma = one-sided
+ * leaf area / (2 volume).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_TREE_CELLS_H
+#define PPSCAT_TREE_CELLS_H
+
+#include <ppscat/tree/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Directions in antipodal pairs: j and j ^ 1 are opposite. They point to where light comes
+ * from; each stands for 4 pi/n of the sphere. data/directions-22.csv. */
+typedef struct pps_directions {
+    int n;
+    const double (*to)[3];
+} pps_directions;
+PPS_API pps_directions pps_directions_22(void);
+
+typedef struct pps_cells_options {
+    int across;  /* cells across the longest side of the leaves' box; 0: 16 */
+    int samples; /* points a leaf that depths are averaged over; 0: 4 */
+    uint64_t seed;
+    int threads; /* 0: all cores; never changes the answer */
+} pps_cells_options;
+
+/* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
+ * Cells without leaves hold zeros; their depths and visibilities are not defined. */
+typedef struct pps_cells {
+    int n[3];
+    double low[3], size; /* corner of the grid, side of a cell, metres */
+    bool periodic;       /* repeats along x and y, with n * size the period */
+    size_t n_cells;
+    pps_directions directions;
+    double *area;       /* one-sided alpha-weighted leaf area, m^2 */
+    uint32_t *cell_of;  /* per scene leaf */
+    uint32_t *n_leaves; /* per cell */
+    /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
+     * (SPP Eq. 29), and the mean visibility of the sun over points on leaves. */
+    double *sun_depth, *sun_behind, *sun_visibility;
+    /* The same towards every direction. */
+    float *depth, *visibility;
+} pps_cells;
+
+/* Build the static part: the grid, leaf areas, and depths and visibilities towards the
+ * directions. NULL options: defaults. */
+PPS_API pps_status pps_cells_create(const pps_scene *scene,
+                                    const pps_cells_options *options, pps_cells **out);
+
+/* The part that moves with the sun, for the sun of the scene as it stands. */
+PPS_API pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
+                                     const pps_cells_options *options);
+PPS_API void pps_cells_free(pps_cells *cells); /* NULL is fine */
+
+#ifdef __cplusplus
+}
+#endif
+#endif
