@@ -1,0 +1,180 @@
+/* The per-leaf model's closed forms: sky, sun, and the sun by way of one leaf.
+ *
+ *   omega_l   towards the sun          M(x) = max(x, 0)        tau s_max_j = -ln att_j
+ *   att_j     of the leaf's octant j   T    = e^(-tau s_max(omega_l))
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "tree/leaf_light_terms.h"
+#include "tree/vec.h"
+
+static const double PI = 3.14159265358979323846;
+
+double pps_leaf_through_mean(double alpha) {
+    return ((PI - alpha) * cos(alpha) + sin(alpha)) / (6 * PI);
+}
+
+double pps_leaf_back_mean(double alpha) {
+    return (sin(alpha) - alpha * cos(alpha)) / (6 * PI);
+}
+
+/* A leaf between omega_j and the sun shows the viewer the side that the sun does not see
+ * where the angle is small: hence "through" at alpha = 0. Both faces, equally often.
+ * A G1/tau = 2 (4 pi/8) [(rf + rb)/pi back + (tf + tb)/pi through] (B-Eqs. 10, 12, 16). */
+double pps_leaf_turned(const pps_leaf_optics *optics, int band, double alpha) {
+    double r = optics->reflectance[0][band] + optics->reflectance[1][band];
+    double t = optics->transmittance[0][band] + optics->transmittance[1][band];
+    return 8 / (double)PPS_OCTANTS *
+           (r * pps_leaf_back_mean(alpha) + t * pps_leaf_through_mean(alpha));
+}
+
+void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]) {
+    double omega[PPS_OCTANTS][3], sum = 0;
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        pps_octant_direction(j, omega[j]);
+        double cosine = vec_dot(omega[j], to);
+        sun->alpha[j] = acos(fmax(-1, fmin(1, cosine)));
+        sun->weight[j] = fmax(cosine, 0);
+        sum += sun->weight[j];
+    }
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        sun->weight[j] /= sum;
+    }
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        sun->turn[j] = 0;
+        for (int i = 0; i < PPS_OCTANTS; i++) {
+            sun->turn[j] += sun->weight[i] * vec_dot(omega[j], omega[i]);
+        }
+    }
+}
+
+/* tau s_max of an octant; one without a gap at all is as deep as floats tell. */
+static double octant_depth(const float *att, int j) {
+    return -log(fmax((double)att[j], 1e-37));
+}
+
+double pps_leaf_sun_through(const pps_leaf_sun *sun, const float *att,
+                            pps_sun_mean mean) {
+    double depth = 0, through = 0;
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        depth += sun->weight[j] * octant_depth(att, j);
+        through += sun->weight[j] * (double)att[j];
+    }
+    return mean == PPS_SUN_PRINTED ? exp(-depth) : through;
+}
+
+/* (1 - e^(-a x))/a for any sign of a. */
+static double decayed(double a, double x) { return a == 0 ? x : -expm1(-a * x) / a; }
+
+/* Along omega_j the sun's depth changes by -turn_j a unit (B-Eq. 22), so B-Eq. 20 is
+ * T int_0^x e^(-s (1 - turn)) ds, x = tau s_max_j. The unbiased mean has one such
+ * integral for each octant the sun shines through. */
+double pps_leaf_sun_depth(const pps_leaf_sun *sun, const float *att, int j,
+                          pps_sun_mean mean) {
+    double x = octant_depth(att, j);
+    if (mean == PPS_SUN_PRINTED) {
+        return pps_leaf_sun_through(sun, att, mean) * decayed(1 - sun->turn[j], x);
+    }
+    double sum = 0, omega[3], other[3];
+    pps_octant_direction(j, omega);
+    for (int i = 0; i < PPS_OCTANTS; i++) {
+        if (sun->weight[i] > 0) {
+            pps_octant_direction(i, other);
+            double across = i == j ? 0 : 1 - vec_dot(omega, other);
+            sum += sun->weight[i] * (double)att[i] * decayed(across, x);
+        }
+    }
+    return sum;
+}
+
+/* The sky's mean radiance over each octant: z has the mean 1/2 over an upper one. With a
+ * ground the lower ones see it under the irradiance of the open sky. */
+static void octant_sky(const pps_scene *scene, int band, double sky[PPS_OCTANTS]) {
+    double zenith = scene->sky.zenith[band], horizon = scene->sky.horizon[band];
+    double irradiance = PI * (horizon / 3 + 2 * zenith / 3);
+    double below = scene->ground.present
+                       ? scene->ground.reflectance[band] * irradiance / PI
+                       : scene->sky.below[band];
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        sky[j] = j >> 2 & 1 ? (horizon + zenith) / 2 : below;
+    }
+}
+
+/* What holds for all leaves of a scene in one band. */
+typedef struct {
+    double sky[PPS_OCTANTS]; /* radiance */
+    pps_leaf_sun sun;
+    double irradiance; /* of the sun */
+    double to[3];
+    pps_sun_mean mean;
+    unsigned sources;
+} lights;
+
+/* turned[j]: pps_leaf_turned of the leaf's optics. */
+static void light_leaf(const lights *l, const double normal[3], const float *att,
+                       const double turned[PPS_OCTANTS], double face[2]) {
+    double from[PPS_OCTANTS] = {0}; /* radiance times solid angle */
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        if (l->sources & PPS_SKY) {
+            from[j] += 4 * PI / PPS_OCTANTS * (double)att[j] * l->sky[j];
+        }
+        if (l->sources & PPS_SUN_INDIRECT && l->irradiance > 0) {
+            from[j] += turned[j] * pps_leaf_sun_depth(&l->sun, att, j, l->mean) *
+                       l->irradiance;
+        }
+    }
+    face[0] = face[1] = 0;
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        double omega[3];
+        pps_octant_direction(j, omega);
+        double cosine = vec_dot(normal, omega);
+        face[cosine < 0] += fabs(cosine) * from[j];
+    }
+    if (l->sources & PPS_SUN && l->irradiance > 0) {
+        double cosine = vec_dot(normal, l->to);
+        face[cosine < 0] +=
+            fabs(cosine) * l->irradiance * pps_leaf_sun_through(&l->sun, att, l->mean);
+    }
+}
+
+static void light_band(const pps_scene *scene, const lights *l, const float *att,
+                       int band, pps_irradiance *out) {
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
+        double turned[PPS_OCTANTS];
+        for (int j = 0; j < PPS_OCTANTS; j++) {
+            turned[j] = pps_leaf_turned(&p->optics, band, l->sun.alpha[j]);
+        }
+        for (size_t i = 0; i < p->mesh->n_leaves; i++) {
+            size_t number = scene->first_leaf[k] + i;
+            double normal[3], face[2];
+            pps_instance_direction(&scene->instance[k], p->mesh->leaf[i].normal,
+                                   normal);
+            light_leaf(l, normal, att + PPS_OCTANTS * number, turned, face);
+            out->front[number * (size_t)out->n_bands + (size_t)band] = face[0];
+            out->back[number * (size_t)out->n_bands + (size_t)band] = face[1];
+        }
+    }
+}
+
+pps_status pps_leaf_light(const pps_scene *scene, const float *att, pps_sun_mean mean,
+                          unsigned sources, pps_irradiance *out) {
+    if (!scene || !att || !out || out->n_leaves != scene->n_leaves ||
+        out->n_bands != scene->n_bands) {
+        return PPS_ERR_ARGUMENT;
+    }
+    if (sources & ~(unsigned)(PPS_SUN | PPS_SUN_INDIRECT | PPS_SKY)) {
+        return PPS_ERR_UNSUPPORTED;
+    }
+    for (int band = 0; band < scene->n_bands; band++) {
+        lights l = {.irradiance = scene->sun.irradiance[band],
+                    .to = {scene->sun.to[0], scene->sun.to[1], scene->sun.to[2]},
+                    .mean = mean,
+                    .sources = sources};
+        octant_sky(scene, band, l.sky);
+        pps_leaf_sun_init(&l.sun, l.to);
+        light_band(scene, &l, att, band, out);
+    }
+    return PPS_OK;
+}
