@@ -103,6 +103,51 @@ static const column stability_columns[] = {
      "processor time of this case; models are kept from the case before it, so that "
      "the first of an albedo and g has their making in it"},
     {0}};
+static const column tree_grow_columns[] = {
+    {"vertices", "integer", "1", "vertices of the mesh"},
+    {"triangles", "integer", "1", "triangles of the mesh"},
+    {"leaves", "integer", "1", "leaves: connected pieces of leaf triangles"},
+    {"leaf_area", "double", "m^2", "one-sided area of all leaves, where they are opaque"},
+    {"leaf_area_index", "double", "1",
+     "leaf_area over the convex hull of the leaves seen from above"},
+    {"width", "double", "m", "mean horizontal extent of the leaves"},
+    {"height", "double", "m", "of the highest point over the lowest"},
+    {0}};
+
+static const column tree_irradiance_columns[] = {
+    {"instance", "integer", "1", "number of the plant in the scene, from 0"},
+    {"leaf", "integer", "1", "number of the leaf in its plant, from 0"},
+    {"material", "string", NULL, "name of the leaf's material"},
+    {"x", "double", "m", "the leaf's centre; z points up"},
+    {"y", "double", "m", "the leaf's centre"},
+    {"z", "double", "m", "the leaf's centre"},
+    {"nx", "double", "1", "the normal of the leaf's front"},
+    {"ny", "double", "1", "the normal of the leaf's front"},
+    {"nz", "double", "1", "the normal of the leaf's front"},
+    {"area", "double", "m^2", "one-sided area, where it is opaque"},
+    {"band", "string", NULL, "name of the colour band"},
+    {"depth", "double", "1", "optical depth below the sun, along its light"},
+    {"thickness", "double", "1", "depth and what lies behind along the light"},
+    {"visibility", "double", "1", "share of the sun seen"},
+    {"g_factor", "double", "1", "G of the compensation; 1 without one"},
+    {"model", "string", NULL, "name of the light model"},
+    {"component", "string", NULL, "which light: sun, indirect, sky, sky-indirect or all"},
+    {"irradiance_front", "double", "W/m^2",
+     "irradiance of the front, in the units of the scene's sun and sky"},
+    {"irradiance_back", "double", "W/m^2", "irradiance of the back"},
+    {"stderr", "double", "W/m^2",
+     "standard error of the mean of both faces; empty where the model has none"},
+    {0}};
+
+static const column tree_models_columns[] = {
+    {"name", "string", NULL, "name, as --model takes it"},
+    {"components", "string", NULL, "the light that it knows"},
+    {"compensates", "boolean", NULL, "takes the G-factor, --compensate"},
+    {"summary", "string", NULL, "what it is"},
+    {"source", "string", NULL, "where it comes from"},
+    {0}};
+
+static const column no_columns[] = {{0}};
 /* clang-format on */
 
 const column *columns_of(subcommand_id subcommand) {
@@ -110,7 +155,9 @@ const column *columns_of(subcommand_id subcommand) {
         [SUB_METHODS] = methods_columns,     [SUB_FIELD] = field_columns,
         [SUB_FLUX] = flux_columns,           [SUB_ERROR] = error_columns,
         [SUB_TABLE] = table_columns,         [SUB_CHART] = chart_columns,
-        [SUB_STABILITY] = stability_columns,
+        [SUB_STABILITY] = stability_columns, [SUB_TREE_GROW] = tree_grow_columns,
+        [SUB_TREE_IRRADIANCE] = tree_irradiance_columns,
+        [SUB_TREE_MODELS] = tree_models_columns, [SUB_TREE_RENDER] = no_columns,
     };
 
     return tables[subcommand];

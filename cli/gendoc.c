@@ -67,7 +67,7 @@ static void man_subcommand(subcommand_id id) {
     const subcommand_spec *spec = &subcommand_table[id];
 
     printf(".TP\n.B %s%s%s\n", spec->name, spec->operand[0] ? " " : "", spec->operand);
-    fputs("Print ", stdout);
+    fputs(columns_of(id)->name ? "Print " : "Make ", stdout);
     roff(spec->summary);
     fputs(".\n", stdout);
     roff(spec->notes);
@@ -142,7 +142,9 @@ static void bash_words(const option_spec *spec) {
 }
 
 static void bash_options(subcommand_id id) {
-    printf("    %s) words='", subcommand_table[id].name);
+    const char *name = subcommand_table[id].name;
+
+    printf("    '%s%s'*) words='", name, strchr(name, ' ') ? "" : " ");
     for (int i = 0; i < OPT_COUNT; i++) {
         if (!option_taken_by((option_id)i, id))
             continue;
@@ -153,6 +155,22 @@ static void bash_options(subcommand_id id) {
     fputs("' ;;\n", stdout);
 }
 
+/* After the first word of "tree grow": the words that may follow. */
+static void bash_second_words(void) {
+    for (int i = 0; i < SUB_COUNT; i++) {
+        const char *name = subcommand_table[i].name, *space = strchr(name, ' ');
+        const char *before = i > 0 ? subcommand_table[i - 1].name : "";
+        if (!space)
+            continue;
+        if (strncmp(name, before, (size_t)(space - name) + 1) != 0)
+            printf("    '%.*s '*) words='", (int)(space - name), name);
+        printf("%s ", space + 1);
+        const char *after = i + 1 < SUB_COUNT ? subcommand_table[i + 1].name : "";
+        if (strncmp(name, after, (size_t)(space - name) + 1) != 0)
+            fputs("' ;;\n", stdout);
+    }
+}
+
 static void bash_completion(void) {
     fputs(
         "# bash completion for ppscat, generated from its table of options.\n"
@@ -160,8 +178,13 @@ static void bash_completion(void) {
         "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
         "    local words='",
         stdout);
-    for (int i = 0; i < SUB_COUNT; i++)
-        printf("%s ", subcommand_table[i].name);
+    for (int i = 0; i < SUB_COUNT; i++) {
+        const char *name = subcommand_table[i].name;
+        const char *before = i > 0 ? subcommand_table[i - 1].name : "";
+        size_t length = strcspn(name, " ");
+        if (strncmp(name, before, length) != 0 || before[length] != ' ')
+            printf("%.*s ", (int)length, name);
+    }
     fputs("--help --version'\n    COMPREPLY=()\n    case $before in\n", stdout);
     for (int i = 0; i < OPT_COUNT; i++) {
         if (option_table[i].metavar && strchr(option_table[i].metavar, '|'))
@@ -170,10 +193,12 @@ static void bash_completion(void) {
     fputs("    -o|--output) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n"
           "    --method) COMPREPLY=($(compgen -W \"$(ppscat methods 2>/dev/null |\n"
           "        tail -n +2 | cut -d, -f1)\" -- \"$word\")); return ;;\n"
-          "    esac\n    [[ $COMP_CWORD -gt 1 ]] && case ${COMP_WORDS[1]} in\n",
+          "    esac\n    [[ $COMP_CWORD -gt 1 ]] && case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" "
+          "in\n",
           stdout);
     for (int i = 0; i < SUB_COUNT; i++)
         bash_options((subcommand_id)i);
+    bash_second_words();
     fputs("    *) words='' ;;\n    esac\n"
           "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
           "}\ncomplete -F _ppscat ppscat\n",

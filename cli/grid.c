@@ -4,7 +4,6 @@
 #include "grid.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -297,27 +296,10 @@ static int read_solver(const invocation *call, pps_options *options) {
 }
 
 /* A count in digits only, lo to hi. */
-static int read_count(const invocation *call, option_id id, uint64_t lo, uint64_t hi,
-                      uint64_t *out) {
-    const char *text = option_text(call, id);
-    char *end;
-    unsigned long long count;
-
-    errno = 0;
-    count = strtoull(text, &end, 10);
-    *out = count;
-    if (*text < '0' || *text > '9' || *end || errno || count < lo || count > hi)
-        return cli_usage(
-            "--%s: '%.60s' is not possible; allowed: whole numbers from %" PRIu64
-            " to %" PRIu64,
-            option_table[id].name, text, lo, hi);
-    return CLI_DONE;
-}
-
 static int read_sampling(const invocation *call, pps_options *options) {
-    int rc = read_count(call, OPT_PHOTONS, 1, 1000000000000, &options->photons);
+    int rc = value_count(call, OPT_PHOTONS, 1, 1000000000000, &options->photons);
 
-    return rc == CLI_DONE ? read_count(call, OPT_SEED, 0, UINT64_MAX, &options->seed)
+    return rc == CLI_DONE ? value_count(call, OPT_SEED, 0, UINT64_MAX, &options->seed)
                           : rc;
 }
 

@@ -17,7 +17,7 @@
 #include "usage.h"
 
 static int (*const commands[SUB_COUNT])(const invocation *) = {
-#define SUBCOMMAND(id, name, operand, summary, notes) cmd_##name,
+#define SUBCOMMAND(id, name, words, operand, summary, notes) cmd_##name,
 #include "subcommands.def"
 #undef SUBCOMMAND
 };
@@ -32,20 +32,44 @@ static int print_version(void) {
     return CLI_DONE;
 }
 
-static int unknown_subcommand(const char *word) {
-    const char *names[SUB_COUNT], *closest;
-    char all[256] = "";
+/* Those whose name begins with `family`, "" for all: "tree grow, tree render". */
+static void list_names(const char *family, char *all, size_t size) {
     size_t length = 0;
 
+    all[0] = '\0';
     for (size_t i = 0; i < SUB_COUNT; i++) {
-        names[i] = subcommand_table[i].name;
-        length += (size_t)snprintf(all + length, sizeof all - length, "%s%s",
-                                   i ? ", " : "", names[i]);
+        const char *name = subcommand_table[i].name;
+        if (strncmp(name, family, strlen(family)) == 0)
+            length += (size_t)snprintf(all + length, size - length, "%s%s",
+                                       length ? ", " : "", name);
     }
+}
+
+static int unknown_subcommand(const char *word, const char *next) {
+    const char *names[SUB_COUNT], *closest;
+    char all[256], family[64];
+
+    snprintf(family, sizeof family, "%.60s ", word);
+    list_names(family, all, sizeof all);
+    if (all[0])
+        return cli_usage("'%.60s%s%.60s' is no subcommand; allowed: %s", word,
+                         *next ? " " : "", next, all);
+    for (size_t i = 0; i < SUB_COUNT; i++)
+        names[i] = subcommand_table[i].name;
+    list_names("", all, sizeof all);
     closest = cli_closest(word, SUB_COUNT, names);
     return cli_usage("unknown subcommand '%.60s'; %s%s%sallowed: %s", word,
                      closest ? "did you mean '" : "", closest ? closest : "",
                      closest ? "'? " : "", all);
+}
+
+/* Whether the command line begins with the one or two words of a subcommand. */
+static bool names_subcommand(const char *name, int argc, char **argv) {
+    size_t length = strcspn(name, " ");
+
+    if (strncmp(name, argv[1], length) != 0 || argv[1][length] != '\0')
+        return false;
+    return name[length] == '\0' || (argc > 2 && strcmp(name + length + 1, argv[2]) == 0);
 }
 
 static int run_subcommand(subcommand_id id, int argc, char **argv) {
@@ -76,7 +100,7 @@ static int dispatch(int argc, char **argv) {
     if (strcmp(word, "--version") == 0)
         return print_version();
     for (size_t i = 0; i < SUB_COUNT; i++) {
-        if (strcmp(word, subcommand_table[i].name) == 0)
+        if (names_subcommand(subcommand_table[i].name, argc, argv))
             return run_subcommand((subcommand_id)i, argc, argv);
     }
     if (word[0] == '-')
@@ -84,7 +108,7 @@ static int dispatch(int argc, char **argv) {
             "unknown option '%.60s' before the subcommand; allowed: --help, "
             "--version",
             word);
-    return unknown_subcommand(word);
+    return unknown_subcommand(word, argc > 2 ? argv[2] : "");
 }
 
 int main(int argc, char **argv) {

@@ -13,7 +13,7 @@
 #define IN(id) (1u << SUB_##id)
 
 const subcommand_spec subcommand_table[SUB_COUNT] = {
-#define SUBCOMMAND(id, name, operand, summary, notes) {#name, operand, summary, notes},
+#define SUBCOMMAND(id, name, words, operand, summary, notes) {words, operand, summary, notes},
 #include "subcommands.def"
 #undef SUBCOMMAND
 };
@@ -116,7 +116,7 @@ static int read_all(invocation *call, char **order) {
 
     fill_getopt(longs, shorts);
     opterr = 0; /* messages are ours: one line, the same style everywhere */
-    optind = 2;
+    optind = 1 + subcommand_words(call->subcommand);
     while ((code = getopt_long(call->argc, order, shorts, longs, NULL)) != -1) {
         if (code == '?' || code == ':')
             return refuse(call, code, optopt, order[optind - 1]);
@@ -152,6 +152,10 @@ bool option_given(const invocation *call, option_id id) {
 
 bool option_taken_by(option_id id, subcommand_id subcommand) {
     return (option_table[id].subcommands >> subcommand & 1u) != 0;
+}
+
+int subcommand_words(subcommand_id id) {
+    return strchr(subcommand_table[id].name, ' ') ? 2 : 1;
 }
 
 const char *option_next_word(const char **at, int *length) {

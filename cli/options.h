@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 typedef enum {
-#define SUBCOMMAND(id, name, operand, summary, notes) SUB_##id,
+#define SUBCOMMAND(id, name, words, operand, summary, notes) SUB_##id,
 #include "subcommands.def"
 #undef SUBCOMMAND
     SUB_COUNT
@@ -42,7 +42,10 @@ typedef struct invocation {
     const char *operand;         /* NULL where not given */
 } invocation;
 
-/* Read the options of a subcommand, argv[2] on; texts are not judged here. */
+/* The words that name it: "flux" has 1, "tree grow" 2. */
+int subcommand_words(subcommand_id id);
+
+/* Read the options of a subcommand, what follows its words; texts are not judged here. */
 int options_read(subcommand_id subcommand, int argc, char *const *argv,
                  invocation *out);
 

@@ -8,7 +8,7 @@
 
 #include "columns.h"
 
-enum { LINE = 79, OPTION_INDENT = 30, COLUMN_INDENT = 26 };
+enum { LINE = 79, OPTION_INDENT = 30, COLUMN_INDENT = 26, SUMMARY_INDENT = 26 };
 
 /* Print words from column `at` on, broken before LINE and indented. Returns the column
  * reached. */
@@ -72,7 +72,8 @@ static void print_option(FILE *file, const option_spec *spec) {
 }
 
 static void print_columns(FILE *file, subcommand_id id) {
-    fputs("\nColumns:\n", file);
+    if (columns_of(id)->name)
+        fputs("\nColumns:\n", file);
     for (const column *c = columns_of(id); c->name; c++) {
         bool unit = c->unit && strcmp(c->unit, "1") != 0;
         int at = fprintf(file, "  %s", c->name);
@@ -89,7 +90,10 @@ void usage_subcommand(FILE *file, subcommand_id id) {
 
     fprintf(file, "Usage: ppscat %s%s%s [OPTION]...\n", spec->name,
             spec->operand[0] ? " " : "", spec->operand);
-    fprintf(file, "Print %s, as CSV.\n\n", spec->summary);
+    if (columns_of(id)->name)
+        fprintf(file, "Print %s, as CSV.\n\n", spec->summary);
+    else
+        fprintf(file, "Make %s.\n\n", spec->summary);
     paragraph(file, spec->notes);
     fputs("\nOptions, with [defaults]:\n", file);
     for (int i = 0; i < OPT_COUNT; i++) {
@@ -116,8 +120,9 @@ void usage_program(FILE *file) {
         const subcommand_spec *spec = &subcommand_table[i];
         int at = fprintf(file, "  %s%s%s", spec->name, spec->operand[0] ? " " : "",
                          spec->operand);
-        pad(file, at, 14);
-        fprintf(file, "%s\n", spec->summary);
+        pad(file, at, SUMMARY_INDENT);
+        wrap(file, SUMMARY_INDENT, SUMMARY_INDENT, spec->summary);
+        fputc('\n', file);
     }
     fputs("\n'ppscat SUBCOMMAND --help' lists the options and columns of one.\n"
           "Exit status: 0 done, 3 done but some rows refused (empty), 2 bad usage or\n"

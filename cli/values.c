@@ -4,6 +4,7 @@
 #include "values.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,6 +37,8 @@ static const number_rule rules[] = {
     {OPT_BEAM, 0, 0, INFINITY, false, false, NAN, "one number, 0 or more"},
     {OPT_SKY, 0, 0, INFINITY, false, false, NAN, "one number, 0 or more"},
     {OPT_GROUND, 0, 0, 1, false, false, NAN, "one number from 0 to 1"},
+    {OPT_LEAF_AREA_INDEX, 0, 0, 1e6, true, false, NAN, "one number above 0"},
+    {OPT_EXPOSURE, 0, 0, INFINITY, true, true, NAN, "one number above 0"},
     {OPT_TOL, 0, 0, 1, true, true, NAN, "one number between 0 and 1, ends excluded"},
 };
 
@@ -115,4 +118,34 @@ bool value_whole(const char *text, long lo, long hi, int *out) {
     x = strtol(text, &end, 10);
     *out = (int)x;
     return *text >= '0' && *text <= '9' && *end == '\0' && !errno && x >= lo && x <= hi;
+}
+
+int value_count(const invocation *call, option_id id, uint64_t lo, uint64_t hi,
+                uint64_t *out) {
+    const char *text = option_text(call, id);
+    char *end;
+    unsigned long long count;
+
+    errno = 0;
+    count = strtoull(text, &end, 10);
+    *out = count;
+    if (*text < '0' || *text > '9' || *end || errno || count < lo || count > hi)
+        return cli_usage(
+            "--%s: '%.60s' is not possible; allowed: whole numbers from %" PRIu64
+            " to %" PRIu64,
+            option_table[id].name, text, lo, hi);
+    return CLI_DONE;
+}
+
+int value_pair(const invocation *call, option_id id, double out[2]) {
+    const char *text = option_text(call, id), *comma = strchr(text, ',');
+    char first[40];
+
+    if (comma && comma - text < (long)sizeof first) {
+        snprintf(first, sizeof first, "%.*s", (int)(comma - text), text);
+        if (list_read_number(first, &out[0]) && list_read_number(comma + 1, &out[1]))
+            return CLI_DONE;
+    }
+    return cli_usage("--%s: '%.60s' is not possible; allowed: two numbers, %s",
+                     option_table[id].name, text, option_table[id].metavar);
 }

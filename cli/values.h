@@ -7,6 +7,8 @@
 #ifndef PPSCAT_CLI_VALUES_H
 #define PPSCAT_CLI_VALUES_H
 
+#include <stdint.h>
+
 #include "list.h"
 #include "options.h"
 
@@ -18,6 +20,13 @@ int value_number(const invocation *call, option_id id, double *out);
 
 /* Which of the words in the option's metavar was given: 0, 1, .. */
 int value_choice(const invocation *call, option_id id, int *out);
+
+/* A whole number from lo to hi. */
+int value_count(const invocation *call, option_id id, uint64_t lo, uint64_t hi,
+                uint64_t *out);
+
+/* Two numbers and a comma between them. */
+int value_pair(const invocation *call, option_id id, double out[2]);
 
 /* A whole number from lo to hi, in digits only. */
 bool value_whole(const char *text, long lo, long hi, int *out);

@@ -1,0 +1,41 @@
+/* The scene and the settings that the subcommands of `tree` share.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPSCAT_CLI_TREE_SCENE_H
+#define PPSCAT_CLI_TREE_SCENE_H
+
+#include <ppscat/tree/cells.h>
+#include <ppscat/tree/light.h>
+#include <ppscat/tree/model.h>
+
+#include "options.h"
+
+/* What the options say of the work on a scene. */
+typedef struct {
+    uint64_t seed;
+    int threads;
+    bool progress;
+    pps_cells_options cells;
+    pps_trace_options trace;
+    pps_light_options light;
+    int gather_samples;
+} tree_settings;
+
+int tree_settings_read(const invocation *call, tree_settings *out);
+
+/* --jobs, or all cores. */
+int tree_threads(const invocation *call, int *out);
+
+/* The scene that the operand names, with its sun where --sun puts it; CLI_USAGE when there
+ * is none or it cannot be read. */
+int tree_scene_open(const invocation *call, pps_scene **out);
+
+/* Components by name. */
+typedef struct {
+    const char *name;
+    unsigned sources; /* pps_light_source, added */
+} tree_component;
+enum { TREE_COMPONENTS = 5 };
+extern const tree_component tree_components[TREE_COMPONENTS];
+
+#endif
