@@ -15,8 +15,14 @@
 
 enum { SIZE_MIN = 16, SIZE_MAX_PIXELS = 16384, PIXEL_RAYS = 4 };
 
-typedef enum { FALSE_DEPTH, FALSE_THICKNESS, FALSE_VISIBILITY, FALSE_G, FALSE_LIGHT,
-               FALSE_ERROR } false_kind;
+typedef enum {
+    FALSE_DEPTH,
+    FALSE_THICKNESS,
+    FALSE_VISIBILITY,
+    FALSE_G,
+    FALSE_LIGHT,
+    FALSE_ERROR
+} false_kind;
 
 /* What the options ask of the picture. */
 typedef struct {
@@ -99,8 +105,9 @@ static double mean_light(const pps_irradiance *light, size_t leaf) {
     return sum / (2 * light->n_bands);
 }
 
-static double leaf_value(const wish *w, const tree_work *work, const tree_answer *answer,
-                         const tree_answer *truth, size_t leaf) {
+static double leaf_value(const wish *w, const tree_work *work,
+                         const tree_answer *answer, const tree_answer *truth,
+                         size_t leaf) {
     tree_place place = tree_answer_place(work, answer, leaf);
 
     switch (w->kind) {

@@ -152,12 +152,17 @@ static const column no_columns[] = {{0}};
 
 const column *columns_of(subcommand_id subcommand) {
     static const column *const tables[SUB_COUNT] = {
-        [SUB_METHODS] = methods_columns,     [SUB_FIELD] = field_columns,
-        [SUB_FLUX] = flux_columns,           [SUB_ERROR] = error_columns,
-        [SUB_TABLE] = table_columns,         [SUB_CHART] = chart_columns,
-        [SUB_STABILITY] = stability_columns, [SUB_TREE_GROW] = tree_grow_columns,
+        [SUB_METHODS] = methods_columns,
+        [SUB_FIELD] = field_columns,
+        [SUB_FLUX] = flux_columns,
+        [SUB_ERROR] = error_columns,
+        [SUB_TABLE] = table_columns,
+        [SUB_CHART] = chart_columns,
+        [SUB_STABILITY] = stability_columns,
+        [SUB_TREE_GROW] = tree_grow_columns,
         [SUB_TREE_IRRADIANCE] = tree_irradiance_columns,
-        [SUB_TREE_MODELS] = tree_models_columns, [SUB_TREE_RENDER] = no_columns,
+        [SUB_TREE_MODELS] = tree_models_columns,
+        [SUB_TREE_RENDER] = no_columns,
     };
 
     return tables[subcommand];

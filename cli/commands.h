@@ -6,7 +6,7 @@
 
 #include "options.h"
 
-#define SUBCOMMAND(id, name, words, operand, summary, notes)                                  \
+#define SUBCOMMAND(id, name, words, operand, summary, notes)                           \
     int cmd_##name(const invocation *call);
 #include "subcommands.def"
 #undef SUBCOMMAND

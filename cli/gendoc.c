@@ -193,7 +193,8 @@ static void bash_completion(void) {
     fputs("    -o|--output) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n"
           "    --method) COMPREPLY=($(compgen -W \"$(ppscat methods 2>/dev/null |\n"
           "        tail -n +2 | cut -d, -f1)\" -- \"$word\")); return ;;\n"
-          "    esac\n    [[ $COMP_CWORD -gt 1 ]] && case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" "
+          "    esac\n    [[ $COMP_CWORD -gt 1 ]] && case \"${COMP_WORDS[1]} "
+          "${COMP_WORDS[2]}\" "
           "in\n",
           stdout);
     for (int i = 0; i < SUB_COUNT; i++)

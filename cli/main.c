@@ -69,7 +69,8 @@ static bool names_subcommand(const char *name, int argc, char **argv) {
 
     if (strncmp(name, argv[1], length) != 0 || argv[1][length] != '\0')
         return false;
-    return name[length] == '\0' || (argc > 2 && strcmp(name + length + 1, argv[2]) == 0);
+    return name[length] == '\0' ||
+           (argc > 2 && strcmp(name + length + 1, argv[2]) == 0);
 }
 
 static int run_subcommand(subcommand_id id, int argc, char **argv) {

@@ -13,7 +13,8 @@
 #define IN(id) (1u << SUB_##id)
 
 const subcommand_spec subcommand_table[SUB_COUNT] = {
-#define SUBCOMMAND(id, name, words, operand, summary, notes) {words, operand, summary, notes},
+#define SUBCOMMAND(id, name, words, operand, summary, notes)                           \
+    {words, operand, summary, notes},
 #include "subcommands.def"
 #undef SUBCOMMAND
 };

@@ -153,8 +153,8 @@ static pps_status run_reference(const tree_work *work, const tree_method *method
     options.user = &meter;
     status = method->kind == TREE_TRACE
                  ? pps_trace_light(work->scene, &options, out, NULL)
-                 : pps_gather_light(work->scene, 0, NULL, work->settings->gather_samples,
-                                    &options, out);
+                 : pps_gather_light(work->scene, 0, NULL,
+                                    work->settings->gather_samples, &options, out);
     progress_end(&meter);
     signal(SIGINT, SIG_DFL);
     return status;
@@ -185,8 +185,8 @@ static pps_status run_model(tree_work *work, const pps_light_model *model,
     status =
         pps_light_field_solve(model, work->scene, work->cells, &options, &out->field);
     return status ? status
-                  : pps_light_field_leaves(out->field, work->scene, work->cells, sources,
-                                           &out->light);
+                  : pps_light_field_leaves(out->field, work->scene, work->cells,
+                                           sources, &out->light);
 }
 
 int tree_answer_find(tree_work *work, const tree_method *method,

@@ -76,10 +76,8 @@ int tree_settings_read(const invocation *call, tree_settings *out) {
         return rc;
     out->cells = (pps_cells_options){
         .across = (int)cells, .seed = out->seed, .threads = out->threads};
-    out->trace = (pps_trace_options){.rays = rays,
-                                     .seed = out->seed,
-                                     .bounces = bounces,
-                                     .threads = out->threads};
+    out->trace = (pps_trace_options){
+        .rays = rays, .seed = out->seed, .bounces = bounces, .threads = out->threads};
     out->light.threads = out->threads;
     out->light.sun_mean = (pps_sun_mean)sun_mean;
     out->gather_samples = (int)samples;

@@ -296,6 +296,49 @@ static void neighbours_of_a_periodic_scene_shade(void **state) {
     pps_scene_free(scene);
 }
 
+/* A leaf under a wide ceiling sees nothing above, all below. */
+static void rays_see_a_ceiling(void **state) {
+    (void)state;
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 0.01, 2, 1);
+    pps_mesh *mesh = scene->prototype[0].mesh;
+    for (uint32_t c = 0; c < 8; c++) { /* leaf 0 small and flat, leaf 1 above it */
+        double side = c < 4 ? 0.01 : 1e4, *p = mesh->position[c];
+        p[0] = side * (c % 4 == 1 || c % 4 == 2 ? 1 : -1);
+        p[1] = side * (c % 4 >= 2 ? 1 : -1);
+        p[2] = c < 4 ? 0 : 1;
+    }
+    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
+    float att[16];
+    assert_int_equal(pps_leaf_visibility(scene, 100, 1, 0, att), PPS_OK);
+    for (int j = 0; j < 8; j++) {
+        assert_close((double)att[j], j < 4 ? 1 : 0, 0, 0.02); /* grazing lines pass */
+    }
+    pps_scene_free(scene);
+}
+
+/* The product is a fair account of what rays see: in the mean, not leaf by leaf. */
+static void products_agree_with_rays_in_the_mean(void **state) {
+    (void)state;
+    enum { N = 1500 };
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 3, N, 8);
+    float *product = malloc(8 * N * sizeof *product),
+          *seen = malloc(8 * N * sizeof *seen);
+    double mean[2] = {0}, rms = 0;
+    assert_int_equal(pps_leaf_attenuation(scene, NULL, product), PPS_OK);
+    assert_int_equal(pps_leaf_visibility(scene, 32, 1, 0, seen), PPS_OK);
+    for (int i = 0; i < 8 * N; i++) {
+        mean[0] += (double)product[i] / (8 * N);
+        mean[1] += (double)seen[i] / (8 * N);
+        rms += (double)((product[i] - seen[i]) * (product[i] - seen[i])) / (8 * N);
+    }
+    print_message("product %.3f, rays %.3f, rms %.3f\n", mean[0], mean[1], sqrt(rms));
+    assert_close(mean[0], mean[1], 0.05, 0);
+    free(product);
+    free(seen);
+    pps_scene_free(scene);
+}
+
 /* Leaves at one place: the tree cannot part them, and must not fail. */
 static void coincident_leaves_hold(void **state) {
     (void)state;
@@ -323,6 +366,8 @@ int main(void) {
         cmocka_unit_test(groups_of_leaves_are_as_good_as_leaves),
         cmocka_unit_test(threads_do_not_change_the_attenuation),
         cmocka_unit_test(neighbours_of_a_periodic_scene_shade),
+        cmocka_unit_test(rays_see_a_ceiling),
+        cmocka_unit_test(products_agree_with_rays_in_the_mean),
         cmocka_unit_test(coincident_leaves_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,6 +40,11 @@ PPS_API pps_status pps_leaf_attenuation(const pps_scene *scene,
                                         const pps_attenuation_options *options,
                                         float *att);
 
+/* The same by rays, for comparison: the share of each octant that `samples` lines (0: 64)
+ * from random points of the leaf find free of leaves and wood. */
+PPS_API pps_status pps_leaf_visibility(const pps_scene *scene, int samples,
+                                       uint64_t seed, int threads, float *att);
+
 /* How the sun's attenuation is put together from the octants it shines through. */
 typedef enum {
     PPS_SUN_PRINTED, /* B-Eq. 7: the mean of the depths, in an exponential: low, for the
