@@ -10,6 +10,7 @@
 #include "tree/alpha.h"
 #include "tree/hull.h"
 #include "tree/vec.h"
+#include "tree/weld.h"
 
 void pps_mesh_free(pps_mesh *mesh) {
     if (!mesh) {
@@ -65,8 +66,7 @@ static int by_place(const void *a, const void *b) {
     return (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
-/* same[v]: the first of the vertices that lie where v does. */
-static pps_status weld(const pps_mesh *mesh, uint32_t *same) {
+pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
     place *places = malloc((mesh->n_vertices + 1) * sizeof *places);
     if (!places) {
         return PPS_ERR_MEMORY;
@@ -108,7 +108,7 @@ static bool is_leaf(const pps_mesh *mesh, size_t triangle) {
 static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
     uint32_t *same = malloc((mesh->n_vertices + 1) * sizeof *same);
     edge *edges = malloc((3 * mesh->n_triangles + 1) * sizeof *edges);
-    pps_status status = same && edges ? weld(mesh, same) : PPS_ERR_MEMORY;
+    pps_status status = same && edges ? pps_mesh_weld(mesh, same) : PPS_ERR_MEMORY;
     size_t n = 0;
     for (uint32_t t = 0; !status && t < mesh->n_triangles; t++) {
         parent[t] = t;
