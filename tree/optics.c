@@ -5,46 +5,32 @@
 
 #include <ppscat/tree/scene.h>
 
-/* IEC 61966-2-1, of 0..255. */
-static double linear(uint8_t value) {
-    double s = value / 255.0;
-    return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
-}
+#include "tree/texture.h"
 
-/* The mean of a texture where the surface is; white if it is nowhere. */
-static void texture_color(const pps_texture *texture, double alpha_min, double rgb[3]) {
-    size_t n = (size_t)texture->width * (size_t)texture->height, there = 0;
-    double table[256], sum[3] = {0};
-    for (int i = 0; i < 256; i++) {
-        table[i] = linear((uint8_t)i);
+/* About the shares that a green broad leaf does not absorb; for files that give leaves no
+ * colour, which then are white. */
+static const double GREEN_LEAF[3] = {0.12, 0.24, 0.06};
+
+static double area_of(const pps_mesh *mesh, uint32_t material) {
+    double area = 0;
+    for (size_t i = 0; i < mesh->n_leaves; i++) {
+        area += mesh->leaf[i].material == material ? mesh->leaf[i].area : 0;
     }
-    for (size_t t = 0; t < n; t++) {
-        const uint8_t *texel = texture->rgba + 4 * t;
-        bool here = texel[3] / 255.0 >= alpha_min;
-        there += here;
-        for (int i = 0; here && i < 3; i++) {
-            sum[i] += table[texel[i]];
-        }
-    }
-    for (int i = 0; i < 3; i++) {
-        rgb[i] = there ? sum[i] / (double)there : 1;
-    }
+    return area;
 }
 
 void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics) {
     double area = 0, sum[3] = {0};
     for (uint32_t m = 0; m < mesh->n_materials; m++) {
         const pps_material *material = &mesh->material[m];
-        double own = 0, rgb[3] = {1, 1, 1};
-        for (size_t i = 0; i < mesh->n_leaves; i++) {
-            own += mesh->leaf[i].material == m ? mesh->leaf[i].area : 0;
-        }
-        if (own > 0 && material->texture >= 0) {
-            texture_color(&mesh->texture[material->texture], material->alpha_min, rgb);
-        }
+        const double *c = material->color;
+        bool white = material->texture < 0 && c[0] >= 1 && c[1] >= 1 && c[2] >= 1;
+        double own = area_of(mesh, m), rgb[3];
+        pps_texture_mean(mesh, material, rgb);
         area += own;
         for (int i = 0; i < 3; i++) {
-            sum[i] += own * fmin(fmax(rgb[i] * material->color[i], 0), 1);
+            double color = white ? GREEN_LEAF[i] : rgb[i] * c[i];
+            sum[i] += own * fmin(fmax(color, 0), 1);
         }
     }
     *optics = (pps_leaf_optics){{{0}}, {{0}}};

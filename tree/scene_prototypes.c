@@ -67,7 +67,7 @@ static pps_status read_optics(const pps_json *at, const pps_scene *scene,
     return status;
 }
 
-/* ---- the three kinds of plants ---- */
+/* ---- the three kinds of plants: their meshes, and optics unless NULL ---- */
 
 static const char *const KIND[] = {"mesh", "species", "crown"};
 enum { KINDS = 3 };
@@ -123,7 +123,8 @@ static pps_status read_mesh_options(const pps_json *at, pps_mesh_read_options *o
     return status;
 }
 
-static pps_status read_mesh(const pps_json *at, pps_mesh **out) {
+static pps_status read_mesh(const pps_json *at, pps_mesh **out,
+                            pps_leaf_optics *optics) {
     static const char *const KEYS[] = {"mesh", "leaf",   "leaf_image", "up",
                                        "unit", "optics", NULL};
     pps_json file = pps_json_key(at, "mesh"), image = pps_json_key(at, "leaf_image");
@@ -144,13 +145,17 @@ static pps_status read_mesh(const pps_json *at, pps_mesh **out) {
     if (!status) {
         status = pass_on(&file, pps_mesh_read(path, &options, out, &inner), &inner);
     }
+    if (!status && optics) {
+        pps_mesh_optics(*out, optics);
+    }
     free(path);
     free(leaf_image);
     return status;
 }
 
 /* A name of a species, or a path: that has a '/' or ends in .json. */
-static pps_status read_species(const pps_json *at, pps_mesh **out) {
+static pps_status read_species(const pps_json *at, pps_mesh **out,
+                               pps_leaf_optics *optics) {
     static const char *const KEYS[] = {"species", "seed", "optics", NULL};
     pps_json species = pps_json_key(at, "species");
     const char *name = NULL;
@@ -167,15 +172,19 @@ static pps_status read_species(const pps_json *at, pps_mesh **out) {
     if (!status) {
         status = read_seed(at, &seed);
     }
+    name = path ? path : name;
     if (!status) {
-        status = pass_on(
-            &species, pps_species_grow(path ? path : name, seed, out, &inner), &inner);
+        status = pass_on(&species, pps_species_grow(name, seed, out, &inner), &inner);
+    }
+    if (!status && optics) {
+        status = pass_on(&species, pps_species_optics(name, optics, &inner), &inner);
     }
     free(path);
     return status;
 }
 
-static pps_status read_crown(const pps_json *at, pps_mesh **out) {
+static pps_status read_crown(const pps_json *at, pps_mesh **out,
+                             pps_leaf_optics *optics) {
     static const char *const KEYS[] = {"crown", "leaf_area_index", "leaves",
                                        "seed",  "optics",          NULL};
     static const char *const SHAPE[] = {"uniform", "clumped", "tall", "hollow"};
@@ -201,7 +210,13 @@ static pps_status read_crown(const pps_json *at, pps_mesh **out) {
     if (!status) {
         status = read_seed(at, &crown.seed);
     }
-    return status ? status : pps_crown_grow(&crown, out);
+    if (!status) {
+        status = pps_crown_grow(&crown, out);
+    }
+    if (!status && optics) {
+        pps_mesh_optics(*out, optics);
+    }
+    return status;
 }
 
 /* ---- all of them ---- */
@@ -210,8 +225,9 @@ static pps_status read_prototype(const pps_json *at, const pps_scene *scene,
                                  pps_prototype *out) {
     static const char *const OPTICS_WANTED =
         "given where the bands are not \"red\", \"green\", \"blue\"";
-    pps_status (*const read[KINDS])(const pps_json *, pps_mesh **) = {
-        read_mesh, read_species, read_crown};
+    pps_status (*const read[KINDS])(const pps_json *, pps_mesh **,
+                                    pps_leaf_optics *) = {read_mesh, read_species,
+                                                          read_crown};
     pps_json optics = pps_json_key(at, "optics");
     int kind = -1, kinds = 0;
     if (!json_is_object(at->value)) {
@@ -231,13 +247,8 @@ static pps_status read_prototype(const pps_json *at, const pps_scene *scene,
     }
     pps_status status =
         optics.value ? read_optics(&optics, scene, &out->optics) : PPS_OK;
-    if (!status) {
-        status = read[kind](at, &out->mesh);
-    }
-    if (!status && !optics.value) {
-        pps_mesh_optics(out->mesh, &out->optics);
-    }
-    return status;
+    return status ? status
+                  : read[kind](at, &out->mesh, optics.value ? NULL : &out->optics);
 }
 
 pps_status pps_scene_read_prototypes(const pps_json *root, pps_scene *scene) {

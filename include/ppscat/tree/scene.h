@@ -79,7 +79,8 @@ PPS_API pps_status pps_scene_of_mesh(pps_mesh *mesh, pps_scene **out);
 
 /* Optics from a mesh's colours, [3] linear red, green, blue: the share that is not absorbed
  * is the leaves' mean colour (image times material, where the surface is), half of it
- * reflected and half transmitted by both faces. */
+ * reflected and half transmitted by both faces. White leaves without an image are taken as
+ * green ones. */
 PPS_API void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics);
 
 /* Unit vector towards the sun; x is east, y north, z up. Degrees, north and east positive;
