@@ -10,12 +10,7 @@
 #include "tree/image.h"
 #include "tree/path.h"
 #include "tree/problem.h"
-
-/* IEC 61966-2-1. */
-static double srgb(float linear) {
-    double x = fmin(fmax((double)linear, 0), 1);
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
-}
+#include "tree/srgb.h"
 
 /* ---- OBJ ---- */
 
@@ -37,7 +32,8 @@ static void print_vertices(FILE *file, const pps_mesh *mesh, const float *color)
         const double *p = mesh->position[v];
         fprintf(file, "v %.9g %.9g %.9g", p[0], p[2], -p[1]);
         for (int i = 0; color && i < 3; i++) {
-            fprintf(file, " %.4f", srgb(color[3 * v + (size_t)i]));
+            double linear = fmin(fmax((double)color[3 * v + (size_t)i], 0), 1);
+            fprintf(file, " %.4f", srgb_encode(linear));
         }
         fputc('\n', file);
     }
@@ -140,7 +136,7 @@ static void write_ply(FILE *file, const pps_mesh *mesh, const float *color) {
             put_float(file, mesh->uv[v][i]);
         }
         for (size_t i = 0; color && i < 3; i++) {
-            fputc((int)lround(255 * srgb(color[3 * v + i])), file);
+            fputc(srgb_byte((double)color[3 * v + i]), file);
         }
     }
     for (size_t t = 0; t < mesh->n_triangles; t++) {
