@@ -8,7 +8,9 @@
 #include <ppscat/tree/mesh.h>
 
 #include "tree/alpha.h"
+#include "tree/hull.h"
 #include "tree/vec.h"
+#include "tree/weld.h"
 
 void pps_mesh_free(pps_mesh *mesh) {
     if (!mesh) {
@@ -64,8 +66,7 @@ static int by_place(const void *a, const void *b) {
     return (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
-/* same[v]: the first of the vertices that lie where v does. */
-static pps_status weld(const pps_mesh *mesh, uint32_t *same) {
+pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
     place *places = malloc((mesh->n_vertices + 1) * sizeof *places);
     if (!places) {
         return PPS_ERR_MEMORY;
@@ -107,7 +108,7 @@ static bool is_leaf(const pps_mesh *mesh, size_t triangle) {
 static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
     uint32_t *same = malloc((mesh->n_vertices + 1) * sizeof *same);
     edge *edges = malloc((3 * mesh->n_triangles + 1) * sizeof *edges);
-    pps_status status = same && edges ? weld(mesh, same) : PPS_ERR_MEMORY;
+    pps_status status = same && edges ? pps_mesh_weld(mesh, same) : PPS_ERR_MEMORY;
     size_t n = 0;
     for (uint32_t t = 0; !status && t < mesh->n_triangles; t++) {
         parent[t] = t;
@@ -287,44 +288,6 @@ static void grow_box(double low[3], double high[3], const double p[3]) {
     }
 }
 
-static int by_xy(const void *a, const void *b) {
-    const double *p = a, *q = b;
-    if (p[0] != q[0]) {
-        return p[0] < q[0] ? -1 : 1;
-    }
-    return (p[1] > q[1]) - (p[1] < q[1]);
-}
-
-static double turn(const double o[2], const double a[2], const double b[2]) {
-    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-}
-
-/* Area of the convex hull of n points, which it sorts (Andrew's monotone chain). */
-static double hull_area(size_t n, double (*point)[2]) {
-    double(*hull)[2] = malloc((2 * n + 1) * sizeof *hull), area = 0;
-    size_t m = 0;
-    if (!hull || n < 3) {
-        free(hull);
-        return 0;
-    }
-    qsort(point, n, sizeof *point, by_xy);
-    for (size_t i = 0; i < n; i++) { /* lower side */
-        for (; m >= 2 && turn(hull[m - 2], hull[m - 1], point[i]) <= 0; m--) {
-        }
-        memcpy(hull[m++], point[i], sizeof *hull);
-    }
-    for (size_t i = n - 1, lower = m + 1; i-- > 0;) { /* and back along the upper */
-        for (; m >= lower && turn(hull[m - 2], hull[m - 1], point[i]) <= 0; m--) {
-        }
-        memcpy(hull[m++], point[i], sizeof *hull);
-    }
-    for (size_t i = 1; i + 1 < m; i++) {
-        area += turn(hull[0], hull[i], hull[i + 1]) / 2;
-    }
-    free(hull);
-    return area;
-}
-
 void pps_mesh_measure(const pps_mesh *mesh, pps_mesh_size *size) {
     *size = (pps_mesh_size){.radius = 0};
     for (int i = 0; i < 3; i++) {
@@ -352,7 +315,7 @@ void pps_mesh_measure(const pps_mesh *mesh, pps_mesh_size *size) {
         size->center[i] = (size->leaf_low[i] + size->leaf_high[i]) / 2;
         size->radius += i < 2 ? (size->leaf_high[i] - size->leaf_low[i]) / 4 : 0;
     }
-    double area = hull_area(n, point);
+    double area = pps_hull_area(n, point);
     size->leaf_area_index = area > 0 ? size->leaf_area / area : 0;
     free(point);
 }
