@@ -33,6 +33,7 @@ typedef struct pps_cells_options {
  * Cells without leaves hold zeros; their depths and visibilities are not defined. */
 typedef struct pps_cells {
     int n[3];
+    int samples;         /* points a leaf that depths were averaged over */
     double low[3], size; /* corner of the grid, side of a cell, metres */
     bool periodic;       /* repeats along x and y, with n * size the period */
     size_t n_cells;
@@ -41,8 +42,9 @@ typedef struct pps_cells {
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
     /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
-     * (SPP Eq. 29), and the mean visibility of the sun over points on leaves. */
-    double *sun_depth, *sun_behind, *sun_visibility;
+     * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
+     * the way on (sun_clear, "nothing behind"). */
+    double *sun_depth, *sun_behind, *sun_visibility, *sun_clear;
     /* The same towards every direction. */
     float *depth, *visibility;
 } pps_cells;
