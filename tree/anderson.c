@@ -12,8 +12,8 @@ static const double RIDGE = 1e-6; /* of floats' normal equations */
 
 pps_status pps_anderson_init(pps_anderson *a, size_t n) {
     *a = (pps_anderson){.n = n};
-    a->memory = aligned_alloc(sizeof(pps_bands), (2 + 2 * DEPTH) * (n + 1) *
-                                                     sizeof(pps_bands));
+    a->memory =
+        aligned_alloc(sizeof(pps_bands), (2 + 2 * DEPTH) * (n + 1) * sizeof(pps_bands));
     if (!a->memory) {
         return PPS_ERR_MEMORY;
     }
@@ -38,7 +38,8 @@ void pps_anderson_restart(pps_anderson *a) {
 
 /* Weighted sums over cells; floats in blocks, doubles over them. */
 typedef struct {
-    double ff[4], gg[4], fd[DEPTH][4], dd[DEPTH][4]; /* d: newest difference, dd: with i */
+    double ff[4], gg[4], fd[DEPTH][4],
+        dd[DEPTH][4]; /* d: newest difference, dd: with i */
 } sums;
 
 static void add_to(double out[4], pps_bands part) {
@@ -153,8 +154,8 @@ double pps_anderson_step(pps_anderson *a, const float *weight, pps_bands *x,
     mix(a, kept, &s, x, g);
     double change = 0;
     for (int b = 0; b < 4; b++) {
-        change = fmax(change, s.gg[b] > 0 ? sqrt(s.ff[b] / s.gg[b])
-                                          : (s.ff[b] > 0 ? 1 : 0));
+        change =
+            fmax(change, s.gg[b] > 0 ? sqrt(s.ff[b] / s.gg[b]) : (s.ff[b] > 0 ? 1 : 0));
     }
     return change;
 }

@@ -42,8 +42,7 @@ void pps_cell_depths(const pps_cells *cells, bool counts, size_t c, int directio
 
 double pps_sky_part(const pps_scene *scene, const pps_cells *cells, int j, int band) {
     double z = cells->directions.to[j][2];
-    return z < 0 && scene->ground.present ? 0
-                                          : pps_sky_radiance(&scene->sky, band, z);
+    return z < 0 && scene->ground.present ? 0 : pps_sky_radiance(&scene->sky, band, z);
 }
 
 int pps_distant_lights(const pps_lit_scene *lit, pps_distant *lights) {
@@ -53,10 +52,12 @@ int pps_distant_lights(const pps_lit_scene *lit, pps_distant *lights) {
     if (lit->options.sources & PPS_SUN_INDIRECT) {
         lights[n] = (pps_distant){.direction = -1};
         memcpy(lights[n].to, scene->sun.to, sizeof lights[n].to);
-        memcpy(lights[n].irradiance, scene->sun.irradiance, sizeof lights[n].irradiance);
+        memcpy(lights[n].irradiance, scene->sun.irradiance,
+               sizeof lights[n].irradiance);
         n++;
     }
-    for (int j = 0; (lit->options.sources & PPS_SKY_INDIRECT) && j < directions->n; j++) {
+    for (int j = 0; (lit->options.sources & PPS_SKY_INDIRECT) && j < directions->n;
+         j++) {
         double most = 0;
         lights[n] = (pps_distant){.direction = j};
         memcpy(lights[n].to, directions->to[j], sizeof lights[n].to);
@@ -161,8 +162,7 @@ static void set_direct(pps_light_field *field, const pps_cells *cells) {
         field->g_factor[c] = 1;
         for (int j = 0; j < field->n_directions; j++) {
             size_t at = c * (size_t)field->n_directions + (size_t)j;
-            field->sky[at] =
-                counts ? expf(-cells->depth[at]) : cells->visibility[at];
+            field->sky[at] = counts ? expf(-cells->depth[at]) : cells->visibility[at];
         }
     }
 }
@@ -229,8 +229,9 @@ static void light_leaf(const pps_light_field *field, const pps_scene *scene,
         back[b] = scene->sun.irradiance[b] * fmax(-sun, 0) + lit * fmax(even - odd, 0);
     }
     for (int d = 0; d < direct->n_directions; d++) {
-        double through = vec_dot(leaf.normal, cells->directions.to[d]) *
-                         (double)field->sky[c * (size_t)field->n_directions + (size_t)d];
+        double through =
+            vec_dot(leaf.normal, cells->directions.to[d]) *
+            (double)field->sky[c * (size_t)field->n_directions + (size_t)d];
         for (size_t b = 0; b < bands; b++) {
             front[b] += fmax(through, 0) * direct->radiance[d][b];
             back[b] += fmax(-through, 0) * direct->radiance[d][b];

@@ -25,7 +25,7 @@ static double clamp01(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
 /* (e^(-k h) - e^(-k L)) / (1 - e^(-k L)), right down to k = 0. */
 static double share_outside(double k, double h, double length) {
-    if (!(length > h)) {
+    if (!(length > 0 && length > h)) {
         return 0;
     }
     double kl = k * length;

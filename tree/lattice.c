@@ -1,7 +1,8 @@
 /* Discrete ordinates on the crown's cells: sweeps, source iteration, Anderson's mixing.
  *
  * Arrays of leaf cells hold only the cells with leaves, [i] with cell leaf_cell[i]. The
- * sides of a periodic grid and the ground pass on what the sweep before brought there.
+ * sides of a periodic grid and the ground pass on what the sweep before brought there;
+ * so they are unknowns too, and follow phi in the state that is iterated.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/lattice.h"
@@ -26,12 +27,15 @@ struct pps_lattice {
     double up_cosine; /* (1/N) sum of |cos| over upward directions */
     double gap, kappa_given;
     uint32_t *leaf_cell;
-    float *depth;           /* per cell: sigma times side */
-    float *weight, *kappa;  /* per leaf cell: depth, escape factor */
-    pps_bands *albedo, *direct, *phi, *image; /* per leaf cell */
-    pps_bands *source;                        /* per cell */
-    pps_bands *sum[2], *flux[2];              /* per cell, downward and upward half */
+    float *depth;                /* per cell: sigma times side */
+    float *kappa;                /* per leaf cell: escape factor */
+    pps_bands *albedo, *direct;  /* per leaf cell */
+    pps_bands *source;           /* per cell */
+    pps_bands *sum[2], *flux[2]; /* per cell, downward and upward half */
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
+    size_t n_state;
+    pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
+    float *weight;            /* of the state: power per cell face and unit */
     float *sky_below; /* [j * n_columns + column]: the share that reaches the ground */
     pps_sweeper sweeper;
     pps_anderson anderson;
@@ -50,6 +54,8 @@ void pps_lattice_free(pps_lattice *l) {
         pps_anderson_clear(&l->anderson);
         free(l->leaf_cell);
         free(l->depth);
+        free(l->kappa);
+        free(l->state);
         free(l->weight);
         free(l->albedo);
         free(l->source);
@@ -109,25 +115,27 @@ static void sweep_dark(pps_lattice *l, pps_sweeper *sweeper, const pps_sweep hal
 
 /* ---- the static part ---- */
 
-static pps_status allocate(pps_lattice *l, const pps_cells *cells) {
+static pps_bands *bands_array(size_t n) {
+    pps_bands *array = aligned_alloc(sizeof(pps_bands), (n + 1) * sizeof(pps_bands));
+    if (array) {
+        memset(array, 0, (n + 1) * sizeof(pps_bands));
+    }
+    return array;
+}
+
+static pps_status allocate(pps_lattice *l) {
     size_t n = l->n_cells, m = l->n_leaf_cells;
     l->depth = calloc(n + 1, sizeof *l->depth);
     l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
-    l->weight = malloc((2 * m + 1) * sizeof *l->weight);
-    size_t leaf_bands = 4 * m + 1, cell_bands = 9 * n + 3 * l->n_columns;
-    l->albedo = aligned_alloc(sizeof(pps_bands), leaf_bands * sizeof(pps_bands));
-    l->source = aligned_alloc(sizeof(pps_bands), cell_bands * sizeof(pps_bands));
-    l->sky_below = calloc(l->n_columns * (size_t)cells->directions.n, sizeof(float));
-    if (!l->depth || !l->leaf_cell || !l->weight || !l->albedo || !l->source ||
+    l->kappa = malloc((m + 1) * sizeof *l->kappa);
+    l->albedo = bands_array(2 * m);
+    l->source = bands_array(9 * n + 3 * l->n_columns);
+    l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
+    if (!l->depth || !l->leaf_cell || !l->kappa || !l->albedo || !l->source ||
         !l->sky_below) {
         return PPS_ERR_MEMORY;
     }
-    memset(l->albedo, 0, leaf_bands * sizeof(pps_bands));
-    memset(l->source, 0, cell_bands * sizeof(pps_bands));
-    l->kappa = l->weight + m;
     l->direct = l->albedo + m;
-    l->phi = l->direct + m;
-    l->image = l->phi + m;
     for (size_t h = 0; h < 2; h++) {
         l->sum[h] = l->source + (1 + h) * n;
         l->flux[h] = l->source + (3 + 3 * h) * n;
@@ -135,7 +143,33 @@ static pps_status allocate(pps_lattice *l, const pps_cells *cells) {
     l->fall = l->source + 9 * n;
     l->ground_direct = l->fall + l->n_columns;
     l->ground_light = l->ground_direct + l->n_columns;
-    return pps_anderson_init(&l->anderson, m);
+    return PPS_OK;
+}
+
+/* What the sweeps iterate, and what each of it weighs: all as power through the face of a
+ * cell, so that one sum of squares is fair to leaves, sides and ground. */
+static pps_status make_state(pps_lattice *l) {
+    size_t sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
+    size_t columns = l->ground ? l->n_columns : 0, n = l->n_leaf_cells;
+    double directions = l->n_directions;
+    l->n_state = n + sides + columns;
+    l->state = bands_array(2 * l->n_state);
+    l->weight = malloc((l->n_state + 1) * sizeof *l->weight);
+    if (!l->state || !l->weight) {
+        return PPS_ERR_MEMORY;
+    }
+    l->image = l->state + l->n_state;
+    for (size_t i = 0; i < n; i++) {
+        l->weight[i] = l->depth[l->leaf_cell[i]];
+    }
+    for (size_t i = 0; i < sides; i++) {
+        l->weight[n + i] = (float)(0.5 / directions); /* mean |cos| */
+    }
+    for (size_t i = 0; i < columns; i++) {
+        l->weight[n + sides + i] =
+            (float)(1 / (directions * directions * l->up_cosine));
+    }
+    return pps_anderson_init(&l->anderson, l->n_state);
 }
 
 static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
@@ -148,7 +182,7 @@ static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
             continue;
         }
         l->leaf_cell[i] = (uint32_t)c;
-        l->depth[c] = l->weight[i] = (float)(cells->area[c] / face);
+        l->depth[c] = (float)(cells->area[c] / face);
         for (int b = 0; b < scene->n_bands; b++) {
             l->albedo[i][b] = albedo[c * (size_t)scene->n_bands + (size_t)b];
         }
@@ -199,8 +233,8 @@ static pps_status measure_kappa(pps_lattice *l, const pps_cells *cells, double g
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
-        l->kappa[i] = (float)(given > 0 ? given
-                                        : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+        l->kappa[i] =
+            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
     }
     free(kept);
     return PPS_OK;
@@ -231,7 +265,7 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     count_cells(l, scene, cells);
     l->kappa_given = kappa;
     l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
-    pps_status status = allocate(l, cells);
+    pps_status status = allocate(l);
     if (!status) {
         status = pps_sweeper_init(&l->sweeper, cells->n, cells->periodic, l->depth,
                                   l->n_directions, cells->directions.to, l->gap);
@@ -242,11 +276,13 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     if (!status) {
         status = measure_kappa(l, cells, kappa);
     }
+    if (!status) {
+        status = make_state(l);
+    }
     if (status) {
         pps_lattice_free(l);
         return status;
     }
-    memset(l->sweeper.faces, 0, l->sweeper.n_faces * sizeof(pps_bands));
     *out = l;
     return PPS_OK;
 }
@@ -263,8 +299,8 @@ static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     for (int b = 0; b < scene->n_bands; b++) {
         e[b] = sun ? (float)scene->sun.irradiance[b] : 0;
         for (int j = 0; sky && j < l->n_directions; j++) {
-            part[j][b] = (float)(4 * PI / l->n_directions *
-                                 pps_sky_part(scene, cells, j, b));
+            part[j][b] =
+                (float)(4 * PI / l->n_directions * pps_sky_part(scene, cells, j, b));
         }
     }
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
@@ -335,58 +371,73 @@ static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
 
 /* ---- source iteration ---- */
 
-/* phi scattered, with the direct light. */
-static void set_source(pps_lattice *l, const pps_bands *phi) {
+/* What leaves scatter of their direct light and phi, the state's first part. */
+static void set_source(pps_lattice *l) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
-        l->source[l->leaf_cell[i]] =
-            l->weight[i] * l->albedo[i] * (l->direct[i] + phi[i]);
+        size_t c = l->leaf_cell[i];
+        l->source[c] = l->depth[c] * l->albedo[i] * (l->direct[i] + l->state[i]);
     }
 }
 
 /* What the ground sends up, I = 4 pi times its radiance; the quadrature's own mean cosine
  * in place of 1/4 gives back exactly what fell. */
-static void set_ground_light(pps_lattice *l, const pps_bands *reflectance) {
+static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
+                             const pps_bands *fall) {
     float up = (float)(1 / l->up_cosine), per = 1 / (float)l->n_directions;
     for (size_t i = 0; i < l->n_columns; i++) {
-        l->ground_light[i] =
-            up * *reflectance * (l->ground_direct[i] + per * l->fall[i]);
+        l->ground_light[i] = up * *reflectance * (l->ground_direct[i] + per * fall[i]);
     }
 }
 
+/* Carry the state's light once through the grid: sums over directions in l->sum, sides in
+ * the sweeper, and l->fall. */
 static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
                        bool flux) {
-    float up = (float)(1 / l->up_cosine);
     pps_sweep half[2] = {{.source = l->source, .sum = l->sum[0]},
                          {.source = l->source, .sum = l->sum[1]}};
+    const pps_bands *sides = l->state + l->n_leaf_cells;
+    size_t n_sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
+    memcpy(l->sweeper.faces, sides, n_sides * sizeof *sides);
     if (l->ground) {
-        set_ground_light(l, reflectance);
+        set_ground_light(l, reflectance, sides + n_sides);
         memset(l->fall, 0, l->n_columns * sizeof(pps_bands));
         half[0].fall = l->fall;
         half[1].ground = l->ground_light;
-        half[1].side = up * *reflectance * far;
+        half[1].side = (float)(1 / l->up_cosine) * *reflectance * far;
     }
     for (int h = 0; h < 2 && flux; h++) {
         half[h].flux = l->flux[h];
     }
+    set_source(l);
     sweep_both(l, half);
+}
+
+static void take_image(pps_lattice *l) {
+    pps_bands *image = l->image;
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        *image++ = l->kappa[i] / (float)l->n_directions * (l->sum[0][c] + l->sum[1][c]);
+    }
+    if (l->sweeper.periodic) {
+        memcpy(image, l->sweeper.faces, l->sweeper.n_sides * sizeof *image);
+        image += l->sweeper.n_sides;
+    }
+    if (l->ground) {
+        memcpy(image, l->fall, l->n_columns * sizeof *image);
+    }
 }
 
 static pps_status iterate(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
                           double tolerance, int *sweeps) {
-    double change = INFINITY;
+    double change = (double)INFINITY;
     pps_anderson_restart(&l->anderson);
     for (*sweeps = 0; change > tolerance; ++*sweeps) {
         if (*sweeps == SWEEPS_MAX) {
             return PPS_ERR_CONVERGENCE;
         }
-        set_source(l, l->phi);
         sweep_once(l, reflectance, far, false);
-        for (size_t i = 0; i < l->n_leaf_cells; i++) {
-            size_t c = l->leaf_cell[i];
-            l->image[i] = l->kappa[i] / (float)l->n_directions *
-                          (l->sum[0][c] + l->sum[1][c]);
-        }
-        change = pps_anderson_step(&l->anderson, l->weight, l->phi, l->image);
+        take_image(l);
+        change = pps_anderson_step(&l->anderson, l->weight, l->state, l->image);
     }
     return PPS_OK;
 }
@@ -419,7 +470,6 @@ pps_status pps_lattice_solve(pps_lattice *l, const pps_lit_scene *lit, double to
         status = iterate(l, &reflectance, far, tolerance, &field->sweeps);
     }
     if (!status) { /* once more, for the net flux too */
-        set_source(l, l->phi);
         sweep_once(l, &reflectance, far, true);
         field->sweeps++;
         give(l, field);

@@ -85,8 +85,7 @@ static scattered consistent(const place *at) {
     march(at, &light, phi, flux);
     double slab = pps_slab_light_sum(&light, at->d);
     double rest = fmax(slab - phi[1], SLIGHT * phi[0]);
-    scattered s = {.phi = slab,
-                   .ratio = rest > 0 ? fmin(phi[0] / rest, RATIO_MAX) : 0};
+    scattered s = {.phi = slab, .ratio = rest > 0 ? fmin(phi[0] / rest, RATIO_MAX) : 0};
     memcpy(s.flux, flux[0], sizeof s.flux);
     memcpy(s.per_ratio, flux[1], sizeof s.per_ratio);
     return s;
@@ -114,8 +113,8 @@ static void set_place(place *at, const pps_lit_scene *lit, const closed_model *m
 }
 
 static void light_cells(const pps_lit_scene *lit, const closed_model *model,
-                        const pps_distant *light, const float *albedo,
-                        scattered *out, float *g_factor) {
+                        const pps_distant *light, const float *albedo, scattered *out,
+                        float *g_factor) {
     const pps_cells *cells = lit->cells;
     size_t bands = (size_t)lit->scene->n_bands;
     place base = {.closure = model->closure,

@@ -3,7 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/lattice.h"
 
-static const double TOLERANCE = 1e-3; /* of phi_d, by extinction; leaves are worse known */
+static const double TOLERANCE =
+    1e-3; /* of phi_d, by extinction; leaves are worse known */
 
 static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
     if (field->state && !pps_lattice_fits(field->state, lit)) {
@@ -12,8 +13,8 @@ static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
     }
     if (!field->state) {
         pps_lattice *lattice;
-        pps_status status = pps_lattice_create(lit->scene, lit->cells, lit->options.kappa,
-                                               lit->options.threads, &lattice);
+        pps_status status = pps_lattice_create(
+            lit->scene, lit->cells, lit->options.kappa, lit->options.threads, &lattice);
         if (status) {
             return status;
         }
@@ -24,11 +25,13 @@ static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
 
 static void free_state(void *state) { pps_lattice_free(state); }
 
-static const struct pps_light_model_ops ops = {.solve = solve, .free_state = free_state};
+static const struct pps_light_model_ops ops = {.solve = solve,
+                                               .free_state = free_state};
 
 const pps_light_model pps_light_lattice = {
     .name = "lattice",
-    .summary = "discrete ordinates on the crown's own cells; the only one with a ground",
+    .summary =
+        "discrete ordinates on the crown's own cells; the only one with a ground",
     .source = "docs/theory.md section 8",
     .sources = PPS_ALL_LIGHT,
     .ops = &ops,

@@ -6,11 +6,12 @@
 
 #include <math.h>
 
-static const double CONSERVATIVE = 1e-9, RESONANCE = 1e-6;
+static const double CONSERVATIVE = 1e-12, RESONANCE = 1e-6;
 
-/* lambda away from 1, where e^(-lambda z) and e^(-z) are one function. */
-static double off_resonance(double lambda) {
-    return fabs(lambda - 1) < RESONANCE ? 1 + RESONANCE : lambda;
+/* lambda away from 1, where e^(-lambda z) and e^(-z) are one function. With m = 1 that is
+ * albedo 0 alone, where their difference is the answer. */
+static double off_resonance(double m, double lambda) {
+    return m > 1 && fabs(lambda - 1) < RESONANCE ? 1 + RESONANCE : lambda;
 }
 
 void pps_slab_light_init(pps_slab_light *light, pps_slab_closure closure, double albedo,
@@ -21,9 +22,8 @@ void pps_slab_light_init(pps_slab_light *light, pps_slab_closure closure, double
     }
     double m = closure == PPS_SLAB_HEMISPHERIC ? 2 : 1;
     double kappa = closure == PPS_SLAB_SPP_PRINTED ? 2 : 1;
-    double lambda = off_resonance(m * sqrt(fmax(1 - albedo, CONSERVATIVE)));
-    double r = lambda / m, a = 1 - r * r; /* a: the albedo that belongs to lambda */
-    /* m = 1: c = -1 and lambda < 1 at any albedo > 0, its limit at 0 is no light. */
+    double lambda = off_resonance(m, m * sqrt(fmax(1 - albedo, CONSERVATIVE)));
+    double r = lambda / m, a = 1 - r * r; /* the albedo that belongs to lambda */
     double c = m == 1 ? -1 : -m * m * a / ((1 - lambda) * (1 + lambda));
     double e = exp(-lambda * w), det = (1 + r) * (1 + r) - (1 - r) * (1 - r) * e * e;
     double top = -c * (1 + 1 / m), bottom = -c * (1 - 1 / m) * exp(-w);

@@ -29,7 +29,7 @@ typedef struct pps_slab_light {
     double m, lambda, w, a, b, c;
 } pps_slab_light;
 
-/* albedo 0..1, w >= 0. The albedo is kept 1e-9 away from 1 and lambda 1e-6 from its
+/* albedo 0..1, w >= 0. The albedo is kept 1e-12 away from 1 and lambda 1e-6 from its
  * resonance with the beam, where the three terms cancel; the field changes by less. */
 void pps_slab_light_init(pps_slab_light *light, pps_slab_closure closure, double albedo,
                          double w);

@@ -49,9 +49,29 @@ static void add_direction(pps_sweeper *sweeper, int j, const double to[3], doubl
     }
 }
 
-static size_t faces_of(const pps_sweeper *s, const pps_sweep_group *g) {
-    size_t nx = (size_t)s->n[0], ny = (size_t)s->n[1], nz = (size_t)s->n[2];
-    return (size_t)g->n * (nx * ny + ny * nz + nx * nz);
+/* Sides first, so that they are one piece, then the moving planes. */
+static pps_status make_faces(pps_sweeper *s) {
+    size_t nx = (size_t)s->n[0], ny = (size_t)s->n[1], nz = (size_t)s->n[2], width = 0;
+    for (int k = 0; k < s->n_groups; k++) {
+        width += (size_t)s->group[k].n;
+    }
+    s->n_sides = width * (ny * nz + nx * nz);
+    size_t bytes = (s->n_sides + width * nx * ny + 1) * sizeof(pps_bands);
+    s->faces = aligned_alloc(sizeof(pps_bands), bytes);
+    if (!s->faces) {
+        return PPS_ERR_MEMORY;
+    }
+    memset(s->faces, 0, bytes);
+    pps_bands *side = s->faces, *plane = s->faces + s->n_sides;
+    for (int k = 0; k < s->n_groups; k++) {
+        pps_sweep_group *g = &s->group[k];
+        g->x_face = side;
+        g->y_face = g->x_face + (size_t)g->n * ny * nz;
+        side = g->y_face + (size_t)g->n * nx * nz;
+        g->z_face = plane;
+        plane += (size_t)g->n * nx * ny;
+    }
+    return PPS_OK;
 }
 
 pps_status pps_sweeper_init(pps_sweeper *sweeper, const int n_cells[3], bool periodic,
@@ -70,26 +90,7 @@ pps_status pps_sweeper_init(pps_sweeper *sweeper, const int n_cells[3], bool per
         }
         sweeper->n_down = half == 0 ? sweeper->n_groups : sweeper->n_down;
     }
-    size_t total = 1;
-    for (int k = 0; k < sweeper->n_groups; k++) {
-        total += faces_of(sweeper, &sweeper->group[k]);
-    }
-    sweeper->faces = aligned_alloc(sizeof(pps_bands), total * sizeof(pps_bands));
-    if (!sweeper->faces) {
-        return PPS_ERR_MEMORY;
-    }
-    sweeper->n_faces = total;
-    memset(sweeper->faces, 0, total * sizeof(pps_bands));
-    pps_bands *next = sweeper->faces;
-    for (int k = 0; k < sweeper->n_groups; k++) {
-        pps_sweep_group *g = &sweeper->group[k];
-        size_t width = (size_t)g->n, nz = (size_t)n_cells[2];
-        g->x_face = next;
-        g->y_face = g->x_face + width * (size_t)n_cells[1] * nz;
-        g->z_face = g->y_face + width * (size_t)n_cells[0] * nz;
-        next = g->z_face + width * (size_t)n_cells[0] * (size_t)n_cells[1];
-    }
-    return PPS_OK;
+    return make_faces(sweeper);
 }
 
 void pps_sweeper_clear(pps_sweeper *sweeper) {
@@ -124,7 +125,8 @@ static void enter(const pps_sweeper *s, const pps_sweep_group *g,
                   const pps_sweep *sweep) {
     size_t columns = (size_t)s->n[0] * (size_t)s->n[1];
     if (g->sign[2] < 0 || !sweep->ground) {
-        fill(g->z_face, columns * (size_t)g->n, g->sign[2] < 0 ? sweep->top : sweep->side);
+        fill(g->z_face, columns * (size_t)g->n,
+             g->sign[2] < 0 ? sweep->top : sweep->side);
         return;
     }
     pps_bands *face = g->z_face;

@@ -35,11 +35,11 @@ typedef struct pps_sweep_group {
 typedef struct pps_sweeper {
     int n[3];
     bool periodic;
-    const float *depth; /* per cell: sigma times its side */
+    const float *depth;   /* per cell: sigma times its side */
     int n_groups, n_down; /* the first n_down carry light downwards */
     pps_sweep_group group[PPS_SWEEP_DIRECTIONS_MAX];
     pps_bands *faces;
-    size_t n_faces;
+    size_t n_sides; /* how many of faces, from the first on, are those of the sides */
 } pps_sweeper;
 
 /* n directions to where light comes from; gap: from the grid to the ground, in cells. */
@@ -50,12 +50,12 @@ void pps_sweeper_clear(pps_sweeper *sweeper);
 
 /* What one half of the directions, downward or upward, carries. */
 typedef struct pps_sweep {
-    const pps_bands *source;        /* per cell: depth times what is scattered */
-    pps_bands top, side;            /* enters there (side: open grids) */
-    const pps_bands *ground;        /* per column, enters from below; NULL: `side` */
-    pps_bands *sum;                 /* per cell: sum of I_j */
-    pps_bands *flux;                /* [3 * cell + axis] sum of I_j omega_j, or NULL */
-    pps_bands *fall;                /* per column of ground: + |cos| I_j, or NULL */
+    const pps_bands *source; /* per cell: depth times what is scattered */
+    pps_bands top, side;     /* enters there (side: open grids) */
+    const pps_bands *ground; /* per column, enters from below; NULL: `side` */
+    pps_bands *sum;          /* per cell: sum of I_j */
+    pps_bands *flux;         /* [3 * cell + axis] sum of I_j omega_j, or NULL */
+    pps_bands *fall;         /* per column of ground: + |cos| I_j, or NULL */
 } pps_sweep;
 
 /* From the plane that the last sweep ended in, first band: what of direction d of a

@@ -21,9 +21,10 @@ typedef struct pps_light_field {
     size_t n_cells;
     int n_bands, n_directions;
     float *diffuse; /* [c * n_bands + b] fluence of the scattered light, W/m^2 */
-    float *flux;    /* [3 * (c * n_bands + b) + axis] its net flux, towards where it is from */
-    float *sun;     /* [c] visibility of the sun, as the model takes it */
-    float *sky;     /* [c * n_directions + j] the same of the directions */
+    float *
+        flux; /* [3 * (c * n_bands + b) + axis] its net flux, towards where it is from */
+    float *sun;               /* [c] visibility of the sun, as the model takes it */
+    float *sky;               /* [c * n_directions + j] the same of the directions */
     float *depth, *thickness; /* [c] along the sun's light, as the model takes them */
     float *g_factor;          /* [c] for the sun; 1 where nothing is compensated */
     int sweeps;               /* `lattice`: of the last solve; else 0 */
