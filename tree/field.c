@@ -16,8 +16,7 @@ static const double PI = 3.14159265358979323846;
 
 /* Depth that a mean visibility stands for, no deeper than its samples can tell. */
 static double visible_depth(const pps_cells *cells, size_t c, double visibility) {
-    double n = (double)cells->n_leaves[c] * cells->samples;
-    return -log(fmin(fmax(visibility, 1 / (4 * n)), 1));
+    return -log(fmin(fmax(visibility, 0.25 / cells->n_points[c]), 1));
 }
 
 double pps_cell_path(const pps_cells *cells, bool counts, size_t c, int j) {
@@ -71,39 +70,54 @@ int pps_distant_lights(const pps_lit_scene *lit, pps_distant *lights) {
     return n;
 }
 
-pps_status pps_cell_albedos(const pps_scene *scene, const pps_cells *cells,
-                            float **albedo) {
-    size_t n_bands = (size_t)scene->n_bands;
-    double *sum = calloc(cells->n_cells * (n_bands + 1) + 1, sizeof *sum);
-    float *mean = calloc(cells->n_cells * n_bands + 1, sizeof *mean);
-    *albedo = mean;
-    if (!sum || !mean) {
-        free(sum);
-        free(mean);
-        *albedo = NULL;
-        return PPS_ERR_MEMORY;
+static void prototype_albedo(const pps_leaf_optics *optics, size_t n_bands,
+                             double *share) {
+    for (size_t b = 0; b < n_bands; b++) {
+        share[b] = (optics->reflectance[0][b] + optics->transmittance[0][b] +
+                    optics->reflectance[1][b] + optics->transmittance[1][b]) /
+                   2;
     }
-    double *area = sum + cells->n_cells * n_bands;
+}
+
+/* Sums of area and of area times albedo; the last row is the whole scene's. */
+static void sum_albedos(const pps_scene *scene, const pps_cells *cells, size_t width,
+                        double *sum) {
+    double *whole = sum + cells->n_cells * width;
     for (size_t k = 0, i = 0; k < scene->n_instances; k++) {
         const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
         double share[PPS_BANDS_MAX], square = pow(scene->instance[k].scale, 2);
-        for (size_t b = 0; b < n_bands; b++) {
-            share[b] = (p->optics.reflectance[0][b] + p->optics.transmittance[0][b] +
-                        p->optics.reflectance[1][b] + p->optics.transmittance[1][b]) /
-                       2;
-        }
+        prototype_albedo(&p->optics, width - 1, share);
         for (size_t l = 0; l < p->mesh->n_leaves; l++, i++) {
-            /* A leaf of no area still needs an albedo where nothing else is. */
-            double a = p->mesh->leaf[l].area * square + 1e-300;
-            area[cells->cell_of[i]] += a;
-            for (size_t b = 0; b < n_bands; b++) {
-                sum[cells->cell_of[i] * n_bands + b] += a * share[b];
+            double area = p->mesh->leaf[l].area * square, *at = sum + cells->cell_of[i] * width;
+            for (size_t b = 0; b < width - 1; b++) {
+                at[b] += area * share[b];
+                whole[b] += area * share[b];
             }
+            at[width - 1] += area;
+            whole[width - 1] += area;
         }
     }
-    for (size_t c = 0; c < cells->n_cells; c++) {
-        for (size_t b = 0; b < n_bands && area[c] > 0; b++) {
-            mean[c * n_bands + b] = (float)(sum[c * n_bands + b] / area[c]);
+}
+
+pps_status pps_cell_albedos(const pps_scene *scene, const pps_cells *cells,
+                            float **albedo) {
+    size_t n_bands = (size_t)scene->n_bands, n = cells->n_cells;
+    double *sum = calloc((n + 1) * (n_bands + 1), sizeof *sum);
+    *albedo = malloc((n * n_bands + 1) * sizeof **albedo);
+    if (!sum || !*albedo) {
+        free(sum);
+        free(*albedo);
+        *albedo = NULL;
+        return PPS_ERR_MEMORY;
+    }
+    sum_albedos(scene, cells, n_bands + 1, sum);
+    for (size_t c = 0; c < n; c++) {
+        /* A cell with parts of leaves that count in others takes the scene's mean. */
+        const double *at = sum + (sum[c * (n_bands + 1) + n_bands] > 0 ? c : n) *
+                                     (n_bands + 1);
+        for (size_t b = 0; b < n_bands; b++) {
+            (*albedo)[c * n_bands + b] =
+                (float)(at[n_bands] > 0 ? at[b] / at[n_bands] : 0);
         }
     }
     free(sum);
@@ -151,7 +165,7 @@ static pps_light_field *create(const pps_light_model *model, const pps_scene *sc
 static void set_direct(pps_light_field *field, const pps_cells *cells) {
     bool counts = field->model->ops->counts;
     for (size_t c = 0; c < cells->n_cells; c++) {
-        if (cells->n_leaves[c] == 0) {
+        if (!(cells->area[c] > 0)) {
             continue;
         }
         double depth, behind;

@@ -32,7 +32,7 @@ static double mean_about(const pps_cells *cells, const double *in, const int at[
                                     (size_t)cells->n[0] +
                                 (size_t)to[0]
                           : 0;
-        if (inside && cells->n_leaves[c] > 0) {
+        if (inside && cells->area[c] > 0) {
             sum += in[c];
             count++;
         }
@@ -45,7 +45,7 @@ void pps_grid_smooth(const pps_cells *cells, const double *in, double *out) {
     for (int z = 0; z < cells->n[2]; z++) {
         for (int y = 0; y < cells->n[1]; y++) {
             for (int x = 0; x < cells->n[0]; x++, c++) {
-                out[c] = cells->n_leaves[c] > 0
+                out[c] = cells->area[c] > 0
                              ? mean_about(cells, in, (int[]){x, y, z})
                              : 0;
             }

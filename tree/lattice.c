@@ -178,7 +178,7 @@ static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
     pps_status status = pps_cell_albedos(scene, cells, &albedo);
     double face = 2 * cells->size * cells->size;
     for (size_t c = 0, i = 0; !status && c < l->n_cells; c++) {
-        if (cells->n_leaves[c] == 0) {
+        if (!(cells->area[c] > 0)) {
             continue;
         }
         l->leaf_cell[i] = (uint32_t)c;
@@ -248,7 +248,7 @@ static void count_cells(pps_lattice *l, const pps_scene *scene,
     l->ground = scene->ground.present;
     l->gap = gap_below(scene, cells);
     for (size_t c = 0; c < cells->n_cells; c++) {
-        l->n_leaf_cells += cells->n_leaves[c] > 0;
+        l->n_leaf_cells += cells->area[c] > 0;
     }
     for (int j = 0; j < l->n_directions; j++) {
         l->up_cosine += fmax(-cells->directions.to[j][2], 0) / l->n_directions;

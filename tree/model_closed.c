@@ -127,7 +127,7 @@ static void light_cells(const pps_lit_scene *lit, const closed_model *model,
 #pragma omp parallel for schedule(static) firstprivate(base)                           \
     num_threads(pps_thread_count(lit->options.threads))
     for (size_t c = 0; c < cells->n_cells; c++) {
-        if (cells->n_leaves[c] == 0) {
+        if (!(cells->area[c] > 0)) {
             continue;
         }
         set_place(&base, lit, model, light, c);
@@ -168,7 +168,7 @@ static void add_light(pps_light_field *field, const pps_cells *cells,
                       const pps_distant *light, const scattered *s) {
     size_t bands = (size_t)field->n_bands;
     for (size_t i = 0; i < cells->n_cells * bands; i++) {
-        if (cells->n_leaves[i / bands] > 0) {
+        if (cells->area[i / bands] > 0) {
             double e = light->irradiance[i % bands];
             field->diffuse[i] += (float)(e * s[i].phi);
             for (int k = 0; k < 3; k++) {

@@ -162,11 +162,15 @@ void pps_scene_box(const pps_scene *scene, pps_box *all, pps_box *leaves) {
         all->high[i] = leaves->high[i] = -INFINITY;
     }
     for (size_t k = 0; k < scene->n_instances; k++) {
-        const pps_mesh *mesh = scene->prototype[scene->instance[k].prototype].mesh;
+        const pps_instance *at = &scene->instance[k];
+        const pps_mesh *mesh = scene->prototype[at->prototype].mesh;
+        double c = cos(at->yaw * DEGREE), s = sin(at->yaw * DEGREE);
         for (size_t t = 0; t < 3 * mesh->n_triangles; t++) {
+            const double *own = mesh->position[mesh->triangle[t / 3][t % 3]];
+            double turned[3] = {c * own[0] - s * own[1], s * own[0] + c * own[1],
+                                own[2]};
             double p[3];
-            pps_instance_point(&scene->instance[k],
-                               mesh->position[mesh->triangle[t / 3][t % 3]], p);
+            vec_along(at->translation, at->scale, turned, p);
             bool leaf = mesh->leaf_of[t / 3] != PPS_NO_LEAF;
             for (int i = 0; i < 3; i++) {
                 all->low[i] = fmin(all->low[i], p[i]);

@@ -68,3 +68,24 @@ pps_scene *crown_scene(pps_crown_shape shape, double leaf_area_index, uint32_t n
     assert_int_equal(pps_crown_grow(&crown, &mesh), PPS_OK);
     return scene_of(mesh);
 }
+
+pps_scene *layer_scene(double leaf_area_index, uint32_t n, uint64_t seed) {
+    pps_crown crown = {PPS_CROWN_UNIFORM, leaf_area_index / 3.14159265358979323846, n,
+                       seed}; /* of area leaf_area_index, whatever its shape */
+    pps_mesh *mesh;
+    assert_int_equal(pps_crown_grow(&crown, &mesh), PPS_OK);
+    uint64_t state = seed + 1;
+    for (uint32_t i = 0; i < n; i++) { /* move each leaf to a place of its own */
+        for (int k = 0; k < 3; k++) {
+            double by = support_random(&state) - mesh->leaf[i].center[k];
+            uint32_t first = mesh->triangle[2 * i][0];
+            for (uint32_t corner = 0; corner < 4; corner++) {
+                mesh->position[first + corner][k] += by;
+            }
+        }
+    }
+    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
+    pps_scene *scene = scene_of(mesh);
+    scene->period[0] = scene->period[1] = 1;
+    return scene;
+}

@@ -23,7 +23,6 @@ typedef struct {
 
 static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
     box made = {.cells = {.n = {nx, ny, nz},
-                          .samples = 1,
                           .size = 0.5,
                           .periodic = periodic,
                           .directions = pps_directions_22()}};
@@ -37,6 +36,7 @@ static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
     c->area = malloc(n * sizeof *c->area);
     c->cell_of = malloc(n * sizeof *c->cell_of);
     c->n_leaves = malloc(n * sizeof *c->n_leaves);
+    c->n_points = malloc(n * sizeof *c->n_points);
     c->sun_depth = calloc(4 * n, sizeof *c->sun_depth);
     c->sun_behind = c->sun_depth + n;
     c->sun_visibility = c->sun_behind + n;
@@ -47,6 +47,7 @@ static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
         c->area[i] = 2 * depth * c->size * c->size;
         c->cell_of[i] = (uint32_t)i;
         c->n_leaves[i] = 1;
+        c->n_points[i] = 1;
     }
     return made;
 }
@@ -55,6 +56,7 @@ static void box_free(box *b) {
     free(b->cells.area);
     free(b->cells.cell_of);
     free(b->cells.n_leaves);
+    free(b->cells.n_points);
     free(b->cells.sun_depth);
     free(b->cells.depth);
     pps_scene_free(b->scene);

@@ -23,17 +23,21 @@ typedef struct pps_directions {
 PPS_API pps_directions pps_directions_22(void);
 
 typedef struct pps_cells_options {
-    int across;  /* cells across the longest side of the leaves' box; 0: 16 */
+    int across;  /* cells across the longest side of the leaves' box, of the largest
+                    plant in a scene of many; 0: 16. Repeating scenes: as near to it as
+                    divides the periods */
     int samples; /* points a leaf that depths are averaged over; 0: 4 */
     uint64_t seed;
     int threads; /* 0: all cores; never changes the answer */
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
- * Cells without leaves hold zeros; their depths and visibilities are not defined. */
+ * Means over points on the cell's leaves, by area, without the triangle that a point is
+ * on. Where area is 0 there are none: depths and visibilities are 0 and mean nothing.
+ * Depths count branches as leaves, one for all a ray meets; visibilities are 0 behind one.
+ * A leaf's points may lie in several cells; cell_of has the most of them. */
 typedef struct pps_cells {
     int n[3];
-    int samples;         /* points a leaf that depths were averaged over */
     double low[3], size; /* corner of the grid, side of a cell, metres */
     bool periodic;       /* repeats along x and y, with n * size the period */
     size_t n_cells;
@@ -41,6 +45,7 @@ typedef struct pps_cells {
     double *area;       /* one-sided alpha-weighted leaf area, m^2 */
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
+    uint32_t *n_points; /* per cell: points that depths and visibilities are means over */
     /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
      * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
      * the way on (sun_clear, "nothing behind"). */
@@ -50,11 +55,13 @@ typedef struct pps_cells {
 } pps_cells;
 
 /* Build the static part: the grid, leaf areas, and depths and visibilities towards the
- * directions. NULL options: defaults. */
+ * directions. NULL options: defaults. The scene must outlive the cells and keep its
+ * instances and meshes. ARGUMENT: no leaves; UNSUPPORTED: no cell divides both periods. */
 PPS_API pps_status pps_cells_create(const pps_scene *scene,
                                     const pps_cells_options *options, pps_cells **out);
 
-/* The part that moves with the sun, for the sun of the scene as it stands. */
+/* The part that moves with the sun, for the sun of the scene as it stands; the points are
+ * those the cells were created with, of options only `threads` counts. */
 PPS_API pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
                                      const pps_cells_options *options);
 PPS_API void pps_cells_free(pps_cells *cells); /* NULL is fine */

@@ -1,0 +1,22 @@
+/* Random points on leaves.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_TREE_LEAFPOINT_H
+#define PPS_TREE_LEAFPOINT_H
+
+#include <ppscat/tree/scene.h>
+
+#include "tree/random.h"
+
+typedef struct {
+    size_t instance;
+    double point[3], normal[3]; /* in the scene; the triangle's normal, unit */
+} pps_leaf_point;
+
+/* A point of scene leaf `leaf`, evenly over its surface where it is there (alpha); it
+ * depends on (seed, stream, item) alone and uses the events from FIRST_POINT_EVENT on. */
+#define FIRST_POINT_EVENT ((uint64_t)1 << 32)
+void pps_leaf_point_draw(const pps_scene *scene, size_t leaf, uint64_t seed,
+                         pps_random_stream stream, uint64_t item, pps_leaf_point *out);
+
+#endif
