@@ -5,7 +5,7 @@
  * factor. Reference: SPP Eq. A.1; docs/theory.md section 5.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/expdiff.h"
+#include <ppscat/expdiff.h>
 
 #include <math.h>
 #include <stdbool.h>

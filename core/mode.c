@@ -16,7 +16,7 @@
 
 #include <math.h>
 
-#include "core/expdiff.h"
+#include <ppscat/expdiff.h>
 
 /* sinh(k t) / k, smooth at k = 0. Only for k t < 1. */
 static double sinh_over(double k, double t) {

@@ -31,9 +31,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include <ppscat/expdiff.h>
 #include <ppscat/phase.h>
 
-#include "core/expdiff.h"
 #include "core/legendre.h"
 #include "core/method.h"
 #include "spp/fourstream.h"

@@ -20,10 +20,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include <ppscat/expdiff.h>
 #include <ppscat/phase.h>
 #include <ppscat/spp.h>
 
-#include "core/expdiff.h"
 #include "core/hemisphere.h"
 #include "core/method.h"
 #include "spp/spp.h"

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "core/expdiff.h"
+#include <ppscat/expdiff.h>
 
 __extension__ typedef __float128 quad;
 

@@ -164,6 +164,7 @@ static pps_status sort_points(pps_cells_own *own, int threads) {
     for (size_t i = 0; i < n; i++) {
         c->area[cell[i]] += weight_of(own, i);
         own->first[cell[i] + 1]++;
+        c->n_points[cell[i]]++;
     }
     for (size_t leaf = 0; leaf < own->scene->n_leaves; leaf++) {
         c->cell_of[leaf] = main_cell(cell + leaf * own->samples, own->samples);
@@ -243,6 +244,7 @@ pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
         cells->sun_depth[cell] = mean[0].depth;
         cells->sun_behind[cell] = mean[1].depth;
         cells->sun_visibility[cell] = mean[0].visibility;
+        cells->sun_clear[cell] = mean[1].visibility;
     }
     return PPS_OK;
 }
@@ -255,15 +257,17 @@ static pps_status reserve(pps_cells_own *own) {
     c->area = calloc(n, sizeof *c->area);
     c->cell_of = calloc(own->scene->n_leaves, sizeof *c->cell_of);
     c->n_leaves = calloc(n, sizeof *c->n_leaves);
+    c->n_points = calloc(n, sizeof *c->n_points);
     c->sun_depth = calloc(n, sizeof *c->sun_depth);
     c->sun_behind = calloc(n, sizeof *c->sun_behind);
     c->sun_visibility = calloc(n, sizeof *c->sun_visibility);
+    c->sun_clear = calloc(n, sizeof *c->sun_clear);
     c->depth = calloc(nj, sizeof *c->depth);
     c->visibility = calloc(nj, sizeof *c->visibility);
     own->point = malloc((own->n_points + 1) * sizeof *own->point);
     own->first = calloc(n + 2, sizeof *own->first);
-    bool all = c->area && c->cell_of && c->n_leaves && c->sun_depth && c->sun_behind &&
-               c->sun_visibility && c->depth && c->visibility && own->point &&
+    bool all = c->area && c->cell_of && c->n_leaves && c->n_points && c->sun_depth && c->sun_behind &&
+               c->sun_visibility && c->sun_clear && c->depth && c->visibility && own->point &&
                own->first;
     return all ? PPS_OK : PPS_ERR_MEMORY;
 }
@@ -322,9 +326,11 @@ void pps_cells_free(pps_cells *cells) {
     free(cells->area);
     free(cells->cell_of);
     free(cells->n_leaves);
+    free(cells->n_points);
     free(cells->sun_depth);
     free(cells->sun_behind);
     free(cells->sun_visibility);
+    free(cells->sun_clear);
     free(cells->depth);
     free(cells->visibility);
     free(own);

@@ -20,6 +20,7 @@
 #define PPSCAT_PPSCAT_H
 
 #include <ppscat/dom.h>
+#include <ppscat/expdiff.h>
 #include <ppscat/mc.h>
 #include <ppscat/method.h>
 #include <ppscat/phase.h>

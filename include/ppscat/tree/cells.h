@@ -45,9 +45,11 @@ typedef struct pps_cells {
     double *area;       /* one-sided alpha-weighted leaf area, m^2 */
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
+    uint32_t *n_points; /* per cell: points that depths and visibilities are means over */
     /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
-     * (SPP Eq. 29), and the mean visibility of the sun over points on leaves. */
-    double *sun_depth, *sun_behind, *sun_visibility;
+     * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
+     * the way on (sun_clear, "nothing behind"). */
+    double *sun_depth, *sun_behind, *sun_visibility, *sun_clear;
     /* The same towards every direction. */
     float *depth, *visibility;
 } pps_cells;

@@ -1,0 +1,478 @@
+/* Discrete ordinates on the crown's cells: sweeps, source iteration, Anderson's mixing.
+ *
+ * Arrays of leaf cells hold only the cells with leaves, [i] with cell leaf_cell[i]. The
+ * sides of a periodic grid and the ground pass on what the sweep before brought there;
+ * so they are unknowns too, and follow phi in the state that is iterated.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tree/lattice.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tree/anderson.h"
+#include "tree/grid.h"
+#include "tree/sweep.h"
+#include "tree/vec.h"
+
+static const double PI = 3.14159265358979323846;
+static const double KAPPA_MIN = 0.5, KAPPA_MAX = 3;
+enum { SWEEPS_MAX = 200, DARK_SWEEPS_MAX = 60, PARALLEL_CELLS = 1500 };
+
+struct pps_lattice {
+    size_t n_cells, n_leaf_cells, n_columns;
+    int n_directions, threads;
+    bool ground;
+    double up_cosine; /* (1/N) sum of |cos| over upward directions */
+    double gap, kappa_given;
+    uint32_t *leaf_cell;
+    float *depth;                /* per cell: sigma times side */
+    float *kappa;                /* per leaf cell: escape factor */
+    pps_bands *albedo, *direct;  /* per leaf cell */
+    pps_bands *source;           /* per cell */
+    pps_bands *sum[2], *flux[2]; /* per cell, downward and upward half */
+    pps_bands *fall, *ground_direct, *ground_light; /* per column */
+    size_t n_state;
+    pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
+    float *weight;            /* of the state: power per cell face and unit */
+    float *sky_below; /* [j * n_columns + column]: the share that reaches the ground */
+    pps_sweeper sweeper;
+    pps_anderson anderson;
+};
+
+/* From the grid to the ground, in cells. */
+static double gap_below(const pps_scene *scene, const pps_cells *cells) {
+    return scene->ground.present
+               ? fmax(cells->low[2] - scene->ground.height, 0) / cells->size
+               : 0;
+}
+
+void pps_lattice_free(pps_lattice *l) {
+    if (l) {
+        pps_sweeper_clear(&l->sweeper);
+        pps_anderson_clear(&l->anderson);
+        free(l->leaf_cell);
+        free(l->depth);
+        free(l->kappa);
+        free(l->state);
+        free(l->weight);
+        free(l->albedo);
+        free(l->source);
+        free(l->sky_below);
+        free(l);
+    }
+}
+
+bool pps_lattice_fits(const pps_lattice *l, const pps_lit_scene *lit) {
+    const pps_ground *ground = &lit->scene->ground;
+    return l->kappa_given == lit->options.kappa && l->ground == ground->present &&
+           l->gap == gap_below(lit->scene, lit->cells);
+}
+
+double pps_lattice_kappa(const pps_lattice *l, size_t c) {
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        if (l->leaf_cell[i] == c) {
+            return (double)l->kappa[i];
+        }
+    }
+    return 1;
+}
+
+/* ---- sweeps over both halves of the directions ---- */
+
+static void sweep_both(pps_lattice *l, const pps_sweep half[2]) {
+#pragma omp parallel for num_threads(l->threads) if (l->n_cells >= PARALLEL_CELLS)
+    for (int h = 0; h < 2; h++) {
+        memset(half[h].sum, 0, l->n_cells * sizeof(pps_bands));
+        if (half[h].flux) {
+            memset(half[h].flux, 0, 3 * l->n_cells * sizeof(pps_bands));
+        }
+        (h == 0 ? pps_sweep_down : pps_sweep_up)(&l->sweeper, &half[h]);
+    }
+}
+
+/* The share of light from outside that reaches the cells of a lattice without sources,
+ * mean over directions, to 1e-4; and what of each direction reaches the ground. */
+static void sweep_dark(pps_lattice *l, pps_sweeper *sweeper, const pps_sweep half[2]) {
+    double before = -1, now = 0;
+    for (int k = 0; k < DARK_SWEEPS_MAX && fabs(now - before) > 1e-4 * now; k++) {
+        before = now;
+        for (int h = 0; h < 2; h++) {
+            memset(half[h].sum, 0, l->n_cells * sizeof(pps_bands));
+        }
+        pps_sweep_down(sweeper, &half[0]);
+        pps_sweep_up(sweeper, &half[1]);
+        now = 0;
+        for (size_t c = 0; c < l->n_cells; c++) {
+            now += (double)(half[0].sum[c][0] + half[1].sum[c][0]);
+        }
+        if (!sweeper->periodic) {
+            break;
+        }
+    }
+}
+
+/* ---- the static part ---- */
+
+static pps_bands *bands_array(size_t n) {
+    pps_bands *array = aligned_alloc(sizeof(pps_bands), (n + 1) * sizeof(pps_bands));
+    if (array) {
+        memset(array, 0, (n + 1) * sizeof(pps_bands));
+    }
+    return array;
+}
+
+static pps_status allocate(pps_lattice *l) {
+    size_t n = l->n_cells, m = l->n_leaf_cells;
+    l->depth = calloc(n + 1, sizeof *l->depth);
+    l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
+    l->kappa = malloc((m + 1) * sizeof *l->kappa);
+    l->albedo = bands_array(2 * m);
+    l->source = bands_array(9 * n + 3 * l->n_columns);
+    l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
+    if (!l->depth || !l->leaf_cell || !l->kappa || !l->albedo || !l->source ||
+        !l->sky_below) {
+        return PPS_ERR_MEMORY;
+    }
+    l->direct = l->albedo + m;
+    for (size_t h = 0; h < 2; h++) {
+        l->sum[h] = l->source + (1 + h) * n;
+        l->flux[h] = l->source + (3 + 3 * h) * n;
+    }
+    l->fall = l->source + 9 * n;
+    l->ground_direct = l->fall + l->n_columns;
+    l->ground_light = l->ground_direct + l->n_columns;
+    return PPS_OK;
+}
+
+/* What the sweeps iterate, and what each of it weighs: all as power through the face of a
+ * cell, so that one sum of squares is fair to leaves, sides and ground. */
+static pps_status make_state(pps_lattice *l) {
+    size_t sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
+    size_t columns = l->ground ? l->n_columns : 0, n = l->n_leaf_cells;
+    double directions = l->n_directions;
+    l->n_state = n + sides + columns;
+    l->state = bands_array(2 * l->n_state);
+    l->weight = malloc((l->n_state + 1) * sizeof *l->weight);
+    if (!l->state || !l->weight) {
+        return PPS_ERR_MEMORY;
+    }
+    l->image = l->state + l->n_state;
+    for (size_t i = 0; i < n; i++) {
+        l->weight[i] = l->depth[l->leaf_cell[i]];
+    }
+    for (size_t i = 0; i < sides; i++) {
+        l->weight[n + i] = (float)(0.5 / directions); /* mean |cos| */
+    }
+    for (size_t i = 0; i < columns; i++) {
+        l->weight[n + sides + i] =
+            (float)(1 / (directions * directions * l->up_cosine));
+    }
+    return pps_anderson_init(&l->anderson, l->n_state);
+}
+
+static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
+                                 const pps_cells *cells) {
+    float *albedo;
+    pps_status status = pps_cell_albedos(scene, cells, &albedo);
+    double face = 2 * cells->size * cells->size;
+    for (size_t c = 0, i = 0; !status && c < l->n_cells; c++) {
+        if (!(cells->area[c] > 0)) {
+            continue;
+        }
+        l->leaf_cell[i] = (uint32_t)c;
+        l->depth[c] = (float)(cells->area[c] / face);
+        for (int b = 0; b < scene->n_bands; b++) {
+            l->albedo[i][b] = albedo[c * (size_t)scene->n_bands + (size_t)b];
+        }
+        i++;
+    }
+    free(albedo);
+    return status;
+}
+
+/* How much of each direction's light reaches the ground. */
+static void note_sky_below(pps_lattice *l) {
+    for (int k = 0; k < l->sweeper.n_down; k++) {
+        const pps_sweep_group *g = &l->sweeper.group[k];
+        for (int d = 0; d < g->n; d++) {
+            pps_sweep_clear(&l->sweeper, g, d,
+                            l->sky_below + (size_t)g->direction[d] * l->n_columns);
+        }
+    }
+}
+
+/* kappa = (1 - mean visibility at leaves) / (1 - escape on the lattice), each a mean over
+ * 3^3 cells: leaves that cluster below a cell catch more of their own light. */
+static pps_status measure_kappa(pps_lattice *l, const pps_cells *cells, double given) {
+    pps_bands one = pps_bands_all(1);
+    pps_sweep half[2] = {
+        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source, .top = one, .side = one, .sum = l->sum[1]}};
+    double *kept = calloc(4 * l->n_cells + 1, sizeof *kept);
+    if (!kept) {
+        return PPS_ERR_MEMORY;
+    }
+    double *caught = kept + l->n_cells, *mean_kept = caught + l->n_cells,
+           *mean_caught = mean_kept + l->n_cells;
+    sweep_dark(l, &l->sweeper, half);
+    note_sky_below(l);
+    int n = l->n_directions;
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        double seen = 0;
+        for (int j = 0; j < n; j++) {
+            seen += (double)cells->visibility[c * (size_t)n + (size_t)j];
+        }
+        kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]) / n;
+        caught[c] = 1 - seen / n;
+    }
+    pps_grid_smooth(cells, kept, mean_kept);
+    pps_grid_smooth(cells, caught, mean_caught);
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
+        l->kappa[i] =
+            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+    }
+    free(kept);
+    return PPS_OK;
+}
+
+static void count_cells(pps_lattice *l, const pps_scene *scene,
+                        const pps_cells *cells) {
+    l->n_cells = cells->n_cells;
+    l->n_columns = (size_t)cells->n[0] * (size_t)cells->n[1];
+    l->n_directions = cells->directions.n;
+    l->ground = scene->ground.present;
+    l->gap = gap_below(scene, cells);
+    for (size_t c = 0; c < cells->n_cells; c++) {
+        l->n_leaf_cells += cells->area[c] > 0;
+    }
+    for (int j = 0; j < l->n_directions; j++) {
+        l->up_cosine += fmax(-cells->directions.to[j][2], 0) / l->n_directions;
+    }
+}
+
+pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
+                              double kappa, int threads, pps_lattice **out) {
+    *out = NULL;
+    pps_lattice *l = calloc(1, sizeof *l);
+    if (!l) {
+        return PPS_ERR_MEMORY;
+    }
+    count_cells(l, scene, cells);
+    l->kappa_given = kappa;
+    l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
+    pps_status status = allocate(l);
+    if (!status) {
+        status = pps_sweeper_init(&l->sweeper, cells->n, cells->periodic, l->depth,
+                                  l->n_directions, cells->directions.to, l->gap);
+    }
+    if (!status) {
+        status = set_leaf_cells(l, scene, cells);
+    }
+    if (!status) {
+        status = measure_kappa(l, cells, kappa);
+    }
+    if (!status) {
+        status = make_state(l);
+    }
+    if (status) {
+        pps_lattice_free(l);
+        return status;
+    }
+    *out = l;
+    return PPS_OK;
+}
+
+/* ---- the light ---- */
+
+/* Fluence of sun and sky at the leaves, by measured visibilities. */
+static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
+    const pps_scene *scene = lit->scene;
+    const pps_cells *cells = lit->cells;
+    bool sun = lit->options.sources & PPS_SUN_INDIRECT,
+         sky = lit->options.sources & PPS_SKY_INDIRECT;
+    pps_bands e = {0}, part[PPS_SWEEP_DIRECTIONS_MAX] = {0};
+    for (int b = 0; b < scene->n_bands; b++) {
+        e[b] = sun ? (float)scene->sun.irradiance[b] : 0;
+        for (int j = 0; sky && j < l->n_directions; j++) {
+            part[j][b] =
+                (float)(4 * PI / l->n_directions * pps_sky_part(scene, cells, j, b));
+        }
+    }
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        const float *seen = &cells->visibility[c * (size_t)l->n_directions];
+        l->direct[i] = (float)cells->sun_visibility[c] * e;
+        for (int j = 0; sky && j < l->n_directions; j++) {
+            l->direct[i] += seen[j] * part[j];
+        }
+    }
+}
+
+/* The share of the sun's light that reaches the ground: a sweep of its own direction. */
+static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *clear) {
+    pps_sweeper sweeper;
+    double to[1][3];
+    memcpy(to, lit->scene->sun.to, sizeof to);
+    pps_status status = pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic,
+                                         l->depth, 1, (const double(*)[3])to, l->gap);
+    if (status) {
+        return status;
+    }
+    pps_bands one = pps_bands_all(1);
+    memset(l->source, 0, l->n_cells * sizeof(pps_bands));
+    pps_sweep half[2] = {
+        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source, .sum = l->sum[1]}};
+    sweep_dark(l, &sweeper, half);
+    pps_sweep_clear(&sweeper, &sweeper.group[0], 0, clear);
+    pps_sweeper_clear(&sweeper);
+    return PPS_OK;
+}
+
+/* Irradiance of the ground by sun and sky: in the columns under the grid, and `far`, where
+ * nothing shades it. */
+static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
+                               pps_bands *far) {
+    const pps_scene *scene = lit->scene;
+    float *clear = malloc((l->n_columns + 1) * sizeof *clear);
+    pps_distant lights[PPS_SWEEP_DIRECTIONS_MAX + 1];
+    int n = pps_distant_lights(lit, lights);
+    pps_status status = clear ? PPS_OK : PPS_ERR_MEMORY;
+    memset(l->ground_direct, 0, l->n_columns * sizeof(pps_bands));
+    *far = pps_bands_all(0);
+    for (int k = 0; k < n && !status; k++) {
+        const pps_distant *light = &lights[k];
+        if (!(light->to[2] > 0)) {
+            continue;
+        }
+        const float *share = clear;
+        if (light->direction >= 0) {
+            share = l->sky_below + (size_t)light->direction * l->n_columns;
+        } else {
+            status = sun_below(l, lit, clear);
+        }
+        pps_bands e = {0};
+        for (int b = 0; b < scene->n_bands; b++) {
+            e[b] = (float)(light->irradiance[b] * light->to[2]);
+        }
+        *far += e;
+        for (size_t i = 0; i < l->n_columns && !status; i++) {
+            l->ground_direct[i] += share[i] * e;
+        }
+    }
+    free(clear);
+    return status;
+}
+
+/* ---- source iteration ---- */
+
+/* What leaves scatter of their direct light and phi, the state's first part. */
+static void set_source(pps_lattice *l) {
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        l->source[c] = l->depth[c] * l->albedo[i] * (l->direct[i] + l->state[i]);
+    }
+}
+
+/* What the ground sends up, I = 4 pi times its radiance; the quadrature's own mean cosine
+ * in place of 1/4 gives back exactly what fell. */
+static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
+                             const pps_bands *fall) {
+    float up = (float)(1 / l->up_cosine), per = 1 / (float)l->n_directions;
+    for (size_t i = 0; i < l->n_columns; i++) {
+        l->ground_light[i] = up * *reflectance * (l->ground_direct[i] + per * fall[i]);
+    }
+}
+
+/* Carry the state's light once through the grid: sums over directions in l->sum, sides in
+ * the sweeper, and l->fall. */
+static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
+                       bool flux) {
+    pps_sweep half[2] = {{.source = l->source, .sum = l->sum[0]},
+                         {.source = l->source, .sum = l->sum[1]}};
+    const pps_bands *sides = l->state + l->n_leaf_cells;
+    size_t n_sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
+    memcpy(l->sweeper.faces, sides, n_sides * sizeof *sides);
+    if (l->ground) {
+        set_ground_light(l, reflectance, sides + n_sides);
+        memset(l->fall, 0, l->n_columns * sizeof(pps_bands));
+        half[0].fall = l->fall;
+        half[1].ground = l->ground_light;
+        half[1].side = (float)(1 / l->up_cosine) * *reflectance * far;
+    }
+    for (int h = 0; h < 2 && flux; h++) {
+        half[h].flux = l->flux[h];
+    }
+    set_source(l);
+    sweep_both(l, half);
+}
+
+static void take_image(pps_lattice *l) {
+    pps_bands *image = l->image;
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        *image++ = l->kappa[i] / (float)l->n_directions * (l->sum[0][c] + l->sum[1][c]);
+    }
+    if (l->sweeper.periodic) {
+        memcpy(image, l->sweeper.faces, l->sweeper.n_sides * sizeof *image);
+        image += l->sweeper.n_sides;
+    }
+    if (l->ground) {
+        memcpy(image, l->fall, l->n_columns * sizeof *image);
+    }
+}
+
+static pps_status iterate(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
+                          double tolerance, int *sweeps) {
+    double change = (double)INFINITY;
+    pps_anderson_restart(&l->anderson);
+    for (*sweeps = 0; change > tolerance; ++*sweeps) {
+        if (*sweeps == SWEEPS_MAX) {
+            return PPS_ERR_CONVERGENCE;
+        }
+        sweep_once(l, reflectance, far, false);
+        take_image(l);
+        change = pps_anderson_step(&l->anderson, l->weight, l->state, l->image);
+    }
+    return PPS_OK;
+}
+
+static void give(const pps_lattice *l, pps_light_field *field) {
+    size_t bands = (size_t)field->n_bands;
+    for (size_t i = 0; i < l->n_leaf_cells; i++) {
+        size_t c = l->leaf_cell[i];
+        float share = l->kappa[i] / (float)l->n_directions;
+        for (size_t b = 0; b < bands; b++) {
+            field->diffuse[c * bands + b] = share * (l->sum[0][c] + l->sum[1][c])[b];
+            for (size_t k = 0; k < 3; k++) {
+                field->flux[3 * (c * bands + b) + k] =
+                    share * (l->flux[0][3 * c + k] + l->flux[1][3 * c + k])[b];
+            }
+        }
+    }
+}
+
+pps_status pps_lattice_solve(pps_lattice *l, const pps_lit_scene *lit, double tolerance,
+                             pps_light_field *field) {
+    pps_bands reflectance = {0}, far = {0};
+    for (int b = 0; b < lit->scene->n_bands; b++) {
+        reflectance[b] = (float)lit->scene->ground.reflectance[b];
+    }
+    set_direct(l, lit);
+    pps_status status = l->ground ? light_ground(l, lit, &far) : PPS_OK;
+    if (!status) {
+        memset(l->source, 0, l->n_cells * sizeof(pps_bands));
+        status = iterate(l, &reflectance, far, tolerance, &field->sweeps);
+    }
+    if (!status) { /* once more, for the net flux too */
+        sweep_once(l, &reflectance, far, true);
+        field->sweeps++;
+        give(l, field);
+    }
+    return status;
+}

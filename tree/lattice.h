@@ -1,0 +1,35 @@
+/* The light model `lattice`: discrete ordinates on the crown's own cells.
+ *
+ *   phi = direct + phi_d,  phi_d = kappa (1/N) sum_j I_j,
+ *   omega_j.grad I_j = -sigma (albedo phi - I_j),   I_j = 4 pi times the radiance,
+ *
+ * with sigma = one-sided leaf area / (2 volume), the measured mean visibility for the
+ * direct light of sun and sky, and nothing diffuse from outside but what a Lambertian
+ * ground sends back. Reference: docs/theory.md section 8.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_TREE_LATTICE_H
+#define PPS_TREE_LATTICE_H
+
+#include "tree/light_model.h"
+
+typedef struct pps_lattice pps_lattice;
+
+/* All that does not move with sun and sky: extinction, escape factors, plan of sweeps.
+ * kappa 0: measured. */
+pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
+                              double kappa, int threads, pps_lattice **out);
+void pps_lattice_free(pps_lattice *lattice); /* NULL is fine */
+
+/* Whether ground and options are still those it was made for. */
+bool pps_lattice_fits(const pps_lattice *lattice, const pps_lit_scene *lit);
+
+/* Solve for the sun, sky and ground of lit, from the last answer on; fills diffuse, flux
+ * and sweeps of the field. CONVERGENCE: not within `tolerance` after 200 sweeps. */
+pps_status pps_lattice_solve(pps_lattice *lattice, const pps_lit_scene *lit,
+                             double tolerance, pps_light_field *field);
+
+/* The escape factor of a cell. */
+double pps_lattice_kappa(const pps_lattice *lattice, size_t c);
+
+#endif

@@ -1,0 +1,88 @@
+/* The table of light models, and what is common to all before and after they run.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+
+#include "tree/light_model.h"
+
+#define MODEL(name) extern const pps_light_model pps_light_##name;
+#include "tree/models.def"
+#undef MODEL
+
+static const pps_light_model *const table[] = {
+#define MODEL(name) &pps_light_##name,
+#include "tree/models.def"
+#undef MODEL
+};
+enum { N_MODELS = sizeof table / sizeof *table };
+
+size_t pps_light_model_count(void) { return N_MODELS; }
+
+const pps_light_model *pps_light_model_at(size_t i) {
+    return i < N_MODELS ? table[i] : NULL;
+}
+
+const pps_light_model *pps_light_model_find(const char *name) {
+    for (size_t i = 0; i < N_MODELS; i++) {
+        if (strcmp(table[i]->name, name) == 0) {
+            return table[i];
+        }
+    }
+    return NULL;
+}
+
+pps_status pps_light_options_check(const pps_light_model *model,
+                                   const pps_light_options *given,
+                                   pps_light_options *options) {
+    *options = given ? *given : (pps_light_options){0};
+    if (!options->sources) {
+        options->sources = model->sources;
+    }
+    if (options->kappa < 0 || options->threads < 0 ||
+        options->sources > PPS_ALL_LIGHT || options->compensate < PPS_COMPENSATE_NONE ||
+        options->compensate > PPS_COMPENSATE_PRINTED) {
+        return PPS_ERR_ARGUMENT;
+    }
+    bool refused = (options->sources & ~model->sources) ||
+                   (options->compensate && !model->compensates);
+    return refused ? PPS_ERR_UNSUPPORTED : PPS_OK;
+}
+
+/* A model without cells writes leaves itself. */
+static pps_status run_leaves(const pps_lit_scene *lit, const pps_light_model *model,
+                             pps_irradiance **out) {
+    pps_status status = pps_irradiance_create(lit->scene, false, out);
+    if (!status) {
+        status = model->ops->leaves(lit, *out);
+    }
+    if (status) {
+        pps_irradiance_free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+pps_status pps_light_model_run(const pps_light_model *model, const pps_scene *scene,
+                               const pps_cells *cells, const pps_light_options *options,
+                               pps_irradiance **out) {
+    *out = NULL;
+    if (!model || !scene) {
+        return PPS_ERR_ARGUMENT;
+    }
+    pps_lit_scene lit = {.scene = scene, .cells = cells};
+    pps_status status = pps_light_options_check(model, options, &lit.options);
+    if (status) {
+        return status;
+    }
+    if (model->ops->leaves) {
+        return run_leaves(&lit, model, out);
+    }
+    pps_light_field *field = NULL;
+    status = pps_light_field_solve(model, scene, cells, options, &field);
+    if (!status) {
+        status = pps_light_field_leaves(field, scene, cells, lit.options.sources, out);
+    }
+    pps_light_field_free(field);
+    return status;
+}
