@@ -101,16 +101,36 @@ static int turn_sun(const invocation *call, pps_scene *scene) {
     return CLI_DONE;
 }
 
+/* A mesh, with --leaf to tell what is leaf. */
+static pps_status read_mesh(const invocation *call, pps_scene **out,
+                            pps_problem *problem) {
+    pps_mesh_read_options options = {.leaf = option_text(call, OPT_LEAF)};
+    pps_mesh *mesh;
+    pps_status status = pps_mesh_read(call->operand, &options, &mesh, problem);
+
+    return status ? status : pps_scene_of_mesh(mesh, out);
+}
+
+static bool is_scene_file(const char *path) {
+    size_t length = strlen(path);
+
+    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+}
+
 int tree_scene_open(const invocation *call, pps_scene **out) {
-    const char *name = subcommand_table[call->subcommand].name;
-    pps_scene_read_options options = {.leaf = option_text(call, OPT_LEAF)};
+    const char *path = call->operand;
     pps_problem problem = {""};
     int rc = CLI_DONE;
 
     *out = NULL;
-    if (!call->operand)
-        return cli_usage("%s: which scene? give a scene file or a mesh", name);
-    pps_status status = pps_scene_read(call->operand, &options, out, &problem);
+    if (!path)
+        return cli_usage("%s: which scene? allowed: a scene file (.json) or a mesh",
+                         subcommand_table[call->subcommand].name);
+    if (is_scene_file(path) && option_given(call, OPT_LEAF))
+        return cli_usage("--leaf: '%.60s' is for meshes; a scene file has its own",
+                         call->text[OPT_LEAF]);
+    pps_status status = is_scene_file(path) ? pps_scene_read(path, out, &problem)
+                                            : read_mesh(call, out, &problem);
     if (status == PPS_ERR_MEMORY)
         return cli_no_memory();
     if (status)

@@ -31,14 +31,15 @@ static int sides_of(const pps_species *s, double radius) {
 /* Wider at the foot, in buttresses towards the roots. */
 static double flare(const pps_species *s, double phase, double z, double angle) {
     double share = s->wood.flare * exp(-fmax(0, z) / s->wood.flare_height);
-    return 1 + share * (1 + 0.35 * cos(5 * angle + phase) + 0.2 * cos(3 * angle - phase));
+    return 1 +
+           share * (1 + 0.35 * cos(5 * angle + phase) + 0.2 * cos(3 * angle - phase));
 }
 
 typedef struct {
     const pps_species *species;
-    double phase;         /* of the buttresses */
-    double x[3], along;   /* the frame carried along the branch; length so far */
-    bool foot;            /* a branch that starts in the ground */
+    double phase;       /* of the buttresses */
+    double x[3], along; /* the frame carried along the branch; length so far */
+    bool foot;          /* a branch that starts in the ground */
 } tube;
 
 static ring add_ring(tube *t, const double at[3], const double way[3], double radius,
@@ -138,8 +139,7 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
                     const pps_skeleton *skeleton, uint32_t material, pps_builder *b) {
     for (uint32_t k = 0; k < skeleton->n; k++) {
         uint32_t parent = skeleton->node[k].parent;
-        bool begins =
-            parent == PPS_NO_NODE || skeleton->node[parent].main_child != k;
+        bool begins = parent == PPS_NO_NODE || skeleton->node[parent].main_child != k;
         if (begins) {
             double phase =
                 2 * PI * pps_random(seed, PPS_RANDOM_SPECIES, k, BUTTRESS).u[0];
@@ -150,9 +150,7 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
 
 /* ---- bark ---- */
 
-static uint8_t share(double x) {
-    return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5);
-}
+static uint8_t share(double x) { return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5); }
 
 pps_texture pps_wood_bark(const pps_species *species, uint64_t seed) {
     enum { WIDTH = 256, HEIGHT = 128, DASHES = 260 };

@@ -66,8 +66,8 @@ static double auto_exposure(const pps_picture *picture) {
 
 static pps_status fail(pps_problem *problem, const char *path, const char *why) {
     if (problem) {
-        snprintf(problem->text, sizeof problem->text, "cannot write %.300s: %.150s", path,
-                 why);
+        snprintf(problem->text, sizeof problem->text, "cannot write %.300s: %.150s",
+                 path, why);
     }
     return PPS_ERR_FILE;
 }

@@ -70,12 +70,13 @@ static pps_status add_stem(const pps_species *species, uint64_t seed, int i,
         double bend = species->stems.wander * height * t;
         double p[3] = {0, 0, z};
         vec_along(p, foot + z * tan(lean) * (0.5 + 0.5 * t), out, p);
-        vec_along(p, 0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
-                         0.35 * bend * sin(2 * PI * q.u[0]),
+        vec_along(p,
+                  0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
+                      0.35 * bend * sin(2 * PI * q.u[0]),
                   side, p);
-        vec_along(p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) -
-                                    sin(2 * PI * q.u[1])),
-                  out, p);
+        vec_along(
+            p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) - sin(2 * PI * q.u[1])),
+            out, p);
         status = add_node(s, k ? (uint32_t)s->n - 1 : PPS_NO_NODE, p);
     }
     return status;
@@ -121,7 +122,8 @@ static double widest(const pps_species *s) {
 /* Evenly in the crown, the inner part `hollow` of its radius left out. */
 static void point_in_crown(const pps_species *s, uint64_t seed, uint64_t i,
                            double out[3]) {
-    double low = s->crown.profile[0][0], high = s->crown.profile[s->crown.n_profile - 1][0];
+    double low = s->crown.profile[0][0],
+           high = s->crown.profile[s->crown.n_profile - 1][0];
     double most = widest(s) * (1 + 2 * s->crown.roughness);
     for (uint64_t again = 0;; again++) {
         pps_uniforms r = draw(seed, POINT, i, again);
@@ -142,7 +144,8 @@ static void point_in_crown(const pps_species *s, uint64_t seed, uint64_t i,
  * drooping towards its edge. */
 static void point_in_tier(const pps_species *s, uint64_t seed, uint64_t i,
                           double out[3]) {
-    double low = s->crown.profile[0][0], high = s->crown.profile[s->crown.n_profile - 1][0];
+    double low = s->crown.profile[0][0],
+           high = s->crown.profile[s->crown.n_profile - 1][0];
     pps_uniforms r = draw(seed, POINT, i, 0);
     uint64_t n = (uint64_t)s->tiers.count, tier = 0;
     /* A tier's share of the points is that of its area: draw until it is accepted. */
@@ -151,8 +154,8 @@ static void point_in_tier(const pps_species *s, uint64_t seed, uint64_t i,
         pps_uniforms pick = draw(seed, POINT, i, again);
         tier = (uint64_t)(pick.u[0] * (double)n);
         pps_uniforms size = draw(seed, TIER, tier, 0);
-        radius = s->tiers.radius[0] +
-                 size.u[0] * (s->tiers.radius[1] - s->tiers.radius[0]);
+        radius =
+            s->tiers.radius[0] + size.u[0] * (s->tiers.radius[1] - s->tiers.radius[0]);
         double ratio = radius / s->tiers.radius[1];
         if (pick.u[1] < ratio * ratio) {
             break;
@@ -320,11 +323,11 @@ static pps_status smooth(pps_skeleton *s) {
             const pps_node *node = &s->node[k];
             bool end = node->parent == PPS_NO_NODE || node->main_child == PPS_NO_NODE;
             for (int i = 0; i < 3; i++) {
-                moved[k][i] = end ? node->at[i]
-                                  : node->at[i] / 2 +
-                                        (s->node[node->parent].at[i] +
-                                         s->node[node->main_child].at[i]) /
-                                            4;
+                moved[k][i] =
+                    end ? node->at[i]
+                        : node->at[i] / 2 + (s->node[node->parent].at[i] +
+                                             s->node[node->main_child].at[i]) /
+                                                4;
             }
         }
         for (size_t k = 0; k < s->n; k++) {

@@ -5,6 +5,7 @@
 #define PPSCAT_TREE_MODEL_H
 
 #include <ppscat/tree/cells.h>
+#include <ppscat/tree/leaf_light.h>
 #include <ppscat/tree/light.h>
 
 #ifdef __cplusplus
@@ -20,8 +21,9 @@ typedef enum {
 
 typedef struct pps_light_options {
     pps_compensation compensate;
-    unsigned sources; /* pps_light_source, added; 0: all that the model has */
-    double kappa;     /* `lattice`: escape factor; 0: measured */
+    unsigned sources;      /* pps_light_source, added; 0: all that the model has */
+    double kappa;          /* `lattice`: escape factor; 0: measured */
+    pps_sun_mean sun_mean; /* `leaf`: how it averages over its octants */
     int threads;
 } pps_light_options;
 
@@ -29,6 +31,7 @@ typedef struct pps_light_model {
     const char *name, *summary, *source;
     unsigned sources; /* pps_light_source that it has */
     bool compensates; /* takes the G-factor */
+    bool per_leaf;    /* needs no cells */
     const struct pps_light_model_ops *ops;
 } pps_light_model;
 

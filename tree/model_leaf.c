@@ -1,0 +1,30 @@
+/* The row "leaf" of the table: attenuations of every leaf's octants, and closed forms.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+
+#include "tree/light_model.h"
+
+static pps_status leaves(const pps_lit_scene *lit, pps_irradiance *out) {
+    pps_attenuation_options options = {.threads = lit->options.threads};
+    float *att = malloc((PPS_OCTANTS * lit->scene->n_leaves + 1) * sizeof *att);
+    pps_status status =
+        att ? pps_leaf_attenuation(lit->scene, &options, att) : PPS_ERR_MEMORY;
+    if (!status) {
+        status = pps_leaf_light(lit->scene, att, lit->options.sun_mean,
+                                lit->options.sources, out);
+    }
+    free(att);
+    return status;
+}
+
+static const struct pps_light_model_ops ops = {.leaves = leaves};
+
+const pps_light_model pps_light_leaf = {
+    .name = "leaf",
+    .summary = "eight attenuations a leaf: sky, sun, and the sun by way of one leaf",
+    .source = "Boulanger et al. 2008",
+    .sources = PPS_SUN | PPS_SUN_INDIRECT | PPS_SKY,
+    .per_leaf = true,
+    .ops = &ops,
+};
