@@ -11,11 +11,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <omp.h>
-
 #include "cli.h"
 #include "csv.h"
 #include "directions.h"
+#include "system.h"
 #include "values.h"
 
 enum {
@@ -324,7 +323,7 @@ static int read_sampling(const invocation *call, pps_options *options) {
 static int read_threads(const invocation *call, int *out) {
     const char *text = call->text[OPT_JOBS];
 
-    *out = omp_get_num_procs();
+    *out = system_cores();
     if (text && !value_whole(text, 1, MAX_THREADS, out))
         return cli_usage(
             "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 "
@@ -339,8 +338,6 @@ static int read_running(const invocation *call, case_grid *grid) {
     if (rc == CLI_DONE)
         rc = value_choice(call, OPT_PROGRESS, &progress);
     grid->progress = progress == 0 ? isatty(STDERR_FILENO) : progress == 1;
-    if (rc == CLI_DONE && option_given(call, OPT_RESUME))
-        return cli_usage("--resume is not there yet; run without it");
     return rc;
 }
 
