@@ -4,12 +4,13 @@
 #include "tree_answer.h"
 
 #include <math.h>
-#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
 #include "progress.h"
+#include "system.h"
 
 static const tree_method references[] = {
     {TREE_TRACE, "mc", "Monte Carlo: light traced from sun and sky, all bounces", "",
@@ -124,19 +125,13 @@ void tree_asked_free(tree_asked *asked) {
 
 /* ---- running ---- */
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
 static bool keep_going(void *user, uint64_t done, uint64_t total) {
     progress_meter *meter = user;
 
     meter->total = (size_t)total;
-    progress_set(meter, (size_t)done);
-    return !interrupted;
+    progress_count(meter, (size_t)done - atomic_load(&meter->done));
+    progress_show(meter);
+    return !system_signal();
 }
 
 /* Monte Carlo, with a progress line, stopped by an interrupt. */
@@ -146,7 +141,7 @@ static pps_status run_reference(const tree_work *work, const tree_method *method
     progress_meter meter;
     pps_status status;
 
-    signal(SIGINT, on_interrupt);
+    system_watch_signals();
     progress_start(&meter, work->settings->progress, (size_t)options.rays);
     options.sources = sources;
     options.progress = keep_going;
@@ -156,7 +151,6 @@ static pps_status run_reference(const tree_work *work, const tree_method *method
                  : pps_gather_light(work->scene, 0, NULL,
                                     work->settings->gather_samples, &options, out);
     progress_end(&meter);
-    signal(SIGINT, SIG_DFL);
     return status;
 }
 
