@@ -3,6 +3,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output.h"
 
+#include <errno.h>
+#include <libgen.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
 #include "cli.h"
 #include "columns.h"
 
@@ -52,4 +58,17 @@ int output_close(output *out, int rc) {
     csv_close(&out->csv);
     record_free(&out->record);
     return rc;
+}
+
+int output_writable(const char *path) {
+    char *folder = malloc(strlen(path) + 1);
+    bool good;
+
+    if (!folder)
+        return cli_no_memory();
+    good = access(dirname(strcpy(folder, path)), W_OK) == 0;
+    free(folder);
+    return good ? CLI_DONE
+                : cli_usage("--output: cannot write '%.200s': %s", path,
+                            strerror(errno));
 }

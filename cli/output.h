@@ -24,6 +24,10 @@ int output_end_row(output *out, const pps_method *method, const char *reason);
 /* Note what a method used for an output; what `auto` picked counts as itself. */
 int output_used(output *out, const pps_method *method, const pps_info *info);
 
+/* Whether a file that is no CSV could be written there, before work is done for it;
+ * CLI_USAGE if not. */
+int output_writable(const char *path);
+
 /* Finish with rc, the outcome so far: report refusals, write the sidecar, name the
  * file. Returns the exit code. Nothing is left under the final name unless all went
  * well. */

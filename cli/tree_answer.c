@@ -38,7 +38,7 @@ size_t tree_method_find(const char *name) {
     return i;
 }
 
-/* ---- lists of names ---- */
+/* ---- what was asked ---- */
 
 /* The number of a name among n; false where there is none of it. */
 static bool find_name(const char *word, size_t length, size_t n,
@@ -90,6 +90,18 @@ static int read_names(const invocation *call, option_id id, size_t n,
     }
 }
 
+/* The G-factor is for those that take one; somebody must. */
+static int check_compensation(const invocation *call, const tree_asked *asked) {
+    bool any = strcmp(option_text(call, OPT_COMPENSATE), "none") == 0;
+
+    for (size_t i = 0; i < asked->n_methods; i++)
+        any = any || asked->method[i].compensates;
+    return any ? CLI_DONE
+               : cli_usage("--compensate: '%.60s' is for models that take a G-factor; "
+                           "--model '%.60s' names none (ppscat tree models)",
+                           call->text[OPT_COMPENSATE], option_text(call, OPT_MODEL));
+}
+
 int tree_asked_read(const invocation *call, tree_asked *out) {
     const char *methods[NAMES_MAX], *components[TREE_COMPONENTS];
     size_t method[NAMES_MAX], component[NAMES_MAX];
@@ -115,7 +127,7 @@ int tree_asked_read(const invocation *call, tree_asked *out) {
         out->method[i] = tree_method_at(method[i]);
     for (size_t i = 0; i < out->n_components; i++)
         out->component[i] = &tree_components[component[i]];
-    return CLI_DONE;
+    return check_compensation(call, out);
 }
 
 void tree_asked_free(tree_asked *asked) {
@@ -172,6 +184,8 @@ static pps_status run_model(tree_work *work, const pps_light_model *model,
     pps_status status = model->per_leaf ? PPS_OK : need_cells(work);
 
     options.sources = sources;
+    if (!model->compensates)
+        options.compensate = PPS_COMPENSATE_NONE;
     if (status)
         return status;
     if (model->per_leaf)
@@ -192,11 +206,6 @@ int tree_answer_find(tree_work *work, const tree_method *method,
     *out = (tree_answer){0};
     if (!sources) {
         *why = "the model does not know this light";
-        return CLI_REFUSED;
-    }
-    if (work->settings->light.compensate && !method->compensates &&
-        method->kind == TREE_MODEL) {
-        *why = "the model takes no --compensate";
         return CLI_REFUSED;
     }
     status = method->kind == TREE_MODEL
