@@ -234,6 +234,9 @@ static pps_status trace_all(const tracer *t, const pps_trace_options *o,
             stop = !o->progress(o->user, now, t->n_rays);
         }
     }
+    if (o->progress && !stop) {
+        o->progress(o->user, t->n_rays, t->n_rays);
+    }
     for (int64_t k = 0; k < n_blocks && energy; k++) {
         add_energy(energy, &block[k]);
     }
