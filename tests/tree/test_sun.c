@@ -22,7 +22,7 @@ static void times_are_julian_days(void **state) {
         {"1987-06-19T12:00:00Z", 2446966.0},
         {"1988-01-27T00:00:00Z", 2447187.5},
         {"1900-01-01T00:00:00Z", 2415020.5},
-        {"2003-10-17T12:30:30-07:00", 2452930.312847}, /* Reda & Andreas 2003 */
+        {"2003-10-17T12:30:30-07:00", 2452930.312847}, /* RA04 */
         {"2026-03-01T01:00+02:00", 2461100.5 - 1 / 24.0},
         {"2024-02-29T00:00Z", 2460369.5},
     };
@@ -68,7 +68,7 @@ static void the_sun_is_among_the_stars_where_almanacs_have_it(void **state) {
         double julian, ascension, declination;
     } rows[] = {
         {2448908.5, 198.38083, -7.78507},      /* Meeus, example 25.a */
-        {2452930.312847, 202.22741, -9.31434}, /* Reda & Andreas 2003, Table A5.1 */
+        {2452930.312847, 202.22741, -9.31434}, /* RA04, Table A5.1 */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         double ascension, declination, sidereal;
@@ -82,7 +82,7 @@ static void the_sun_is_among_the_stars_where_almanacs_have_it(void **state) {
 static void the_sun_is_in_the_sky_where_it_is_seen(void **state) {
     (void)state;
     double to[3];
-    /* Reda & Andreas 2003, Table A5.1: Golden, Colorado. */
+    /* RA04, Table A5.1: Golden, Colorado. */
     assert_int_equal(
         pps_sun_direction(39.742476, -105.1786, "2003-10-17T12:30:30-07:00", to, NULL),
         PPS_OK);
