@@ -251,6 +251,30 @@ static void what_is_up_depends_on_the_format_or_the_option(void **state) {
     corner_is(stl, PPS_UP_OF_FORMAT, 0, 0, 3, 0);
 }
 
+/* FBX says what is up and what its unit is, in centimetres. */
+static const char FBX[] =
+    "; FBX 7.4.0 project file\n"
+    "FBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+    "GlobalSettings: {\nVersion: 1000\nProperties70: {\n"
+    "P: \"UpAxis\", \"int\", \"Integer\", \"\",%d\n"
+    "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",%d\n}\n}\n"
+    "Objects: {\nGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"
+    "Vertices: *9 {\na: 0,0,0,1,0,0,0,3,0\n}\nPolygonVertexIndex: *3 {\na: "
+    "0,1,-3\n}\n}\n"
+    "Model: 2, \"Model::leaf\", \"Mesh\" {\nVersion: 232\n}\n}\n"
+    "Connections: {\nC: \"OO\",2,0\nC: \"OO\",1,2\n}\n";
+
+static void fbx_files_say_what_is_up(void **state) {
+    (void)state;
+    char text[2000];
+    snprintf(text, sizeof text, FBX, 2, 100);
+    corner_is(files_text("up.fbx", text), PPS_UP_OF_FORMAT, 0, 0, 3, 0);
+    snprintf(text, sizeof text, FBX, 1, 1);
+    corner_is(files_text("up.fbx", text), PPS_UP_OF_FORMAT, 0, 0, 0, 0.03);
+    snprintf(text, sizeof text, FBX, 0, 1);
+    corner_is(files_text("up.fbx", text), PPS_UP_OF_FORMAT, 10, 0.3, 0, 0);
+}
+
 static void object_names_count_where_material_names_say_nothing(void **state) {
     (void)state;
     pps_mesh *mesh = read_mesh(
@@ -340,22 +364,29 @@ static void wood_may_lack_its_image(void **state) {
     pps_mesh_free(mesh);
 }
 
-/* A square card as glTF: `material` and `nodes` are JSON. */
-static pps_mesh *read_gltf(const char *material, const char *nodes) {
+/* A square card as glTF: `material`, `nodes` and the image are JSON; the file of numbers ends
+ * in a PNG of ROW, from byte 92. */
+static pps_mesh *read_gltf_with(const char *material, const char *nodes,
+                                const char *image) {
     static const float BUFFER[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, /* positions */
                                    0, 1, 1, 1, 1, 0, 0, 0};            /* v down */
     static const unsigned short INDEX[] = {0, 1, 2, 0, 2, 3};
-    unsigned char bytes[sizeof BUFFER + sizeof INDEX];
-    char json[2000];
+    unsigned char bytes[1000];
+    char json[2500];
+    size_t length;
+    unsigned char *png = files_load(files_png("my rgba.png", 4, ROW, true), &length);
     memcpy(bytes, BUFFER, sizeof BUFFER);
     memcpy(bytes + sizeof BUFFER, INDEX, sizeof INDEX);
-    files_write("card.bin", bytes, sizeof bytes);
+    memcpy(bytes + 92, png, length);
+    free(png);
+    files_write("card.bin", bytes, 92 + length);
     snprintf(
         json, sizeof json,
-        "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": "
+        "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": "
+        "[\"KHR_texture_transform\"], \"scene\": 0, \"scenes\": [{\"nodes\": "
         "[0]}],"
         "\"nodes\": [%s], \"materials\": [{\"name\": \"leaf\", %s}],"
-        "\"images\": [{\"uri\": \"my%%20rgba.png\"}], \"textures\": [{\"source\": 0}],"
+        "\"images\": [%s], \"textures\": [{\"source\": 0}],"
         "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, "
         "\"TEXCOORD_0\": 1}, \"indices\": 2, \"material\": 0}]}],"
         "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, "
@@ -366,10 +397,15 @@ static pps_mesh *read_gltf(const char *material, const char *nodes) {
         "\"type\": \"SCALAR\"}],"
         "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, "
         "\"byteOffset\": 48, \"byteLength\": 32}, {\"buffer\": 0, \"byteOffset\": 80, "
-        "\"byteLength\": 12}], \"buffers\": [{\"uri\": \"card.bin\", \"byteLength\": "
-        "92}]}",
-        nodes, material);
+        "\"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 92, \"byteLength\": "
+        "%zu}], "
+        "\"buffers\": [{\"uri\": \"card.bin\", \"byteLength\": %zu}]}",
+        nodes, material, image, length, 92 + length);
     return read_mesh(files_text("card.gltf", json));
+}
+
+static pps_mesh *read_gltf(const char *material, const char *nodes) {
+    return read_gltf_with(material, nodes, "{\"uri\": \"my%20rgba.png\"}");
 }
 
 #define IMAGE "\"baseColorTexture\": {\"index\": 0}"
@@ -394,12 +430,35 @@ static void gltf_alpha_is_as_its_mode_says(void **state) {
          "{" IMAGE ", \"baseColorFactor\": [1, 1, 1, 0.7]}",
          0.5},
     };
-    files_png("my rgba.png", 4, ROW, true);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         pps_mesh *mesh = read_gltf(rows[i].material, "{\"mesh\": 0}");
         assert_close(leaf_area(mesh), rows[i].area, 0.03, 0);
         pps_mesh_free(mesh);
     }
+}
+
+static void images_inside_gltf_are_found(void **state) {
+    (void)state;
+    pps_mesh *mesh = read_gltf_with(
+        "\"alphaMode\": \"MASK\", \"pbrMetallicRoughness\": {" IMAGE "}",
+        "{\"mesh\": 0}", "{\"bufferView\": 3, \"mimeType\": \"image/png\"}");
+    assert_close(leaf_area(mesh), 0.25, 0.03, 0);
+    assert_int_equal(mesh->texture[0].width, 4);
+    /* Left to right as in the image. */
+    assert_int_equal(mesh->texture[0].rgba[4 * 3], 60);
+    pps_mesh_free(mesh);
+}
+
+static void textures_may_be_moved_and_scaled(void **state) {
+    (void)state;
+    pps_mesh *mesh = read_gltf(
+        "\"alphaMode\": \"MASK\", \"alphaCutoff\": 0.45, \"pbrMetallicRoughness\": {"
+        "\"baseColorTexture\": {\"index\": 0, \"extensions\": "
+        "{\"KHR_texture_transform\": "
+        "{\"scale\": [0.25, 1], \"offset\": [0.5, 0]}}}}",
+        "{\"mesh\": 0}");
+    assert_close(leaf_area(mesh), 0, 0, 0.03); /* texel 2 alone */
+    pps_mesh_free(mesh);
 }
 
 static void nodes_move_turn_scale_mirror_and_repeat(void **state) {
@@ -433,12 +492,15 @@ int main(void) {
         cmocka_unit_test(problems_name_the_file_and_what_is_wrong),
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(what_is_up_depends_on_the_format_or_the_option),
+        cmocka_unit_test(fbx_files_say_what_is_up),
         cmocka_unit_test(object_names_count_where_material_names_say_nothing),
         cmocka_unit_test(cards_back_to_back_are_one_leaf),
         cmocka_unit_test(wood_under_a_leaf_is_kept),
         cmocka_unit_test(obj_leaves_are_cut_by_their_images),
         cmocka_unit_test(wood_may_lack_its_image),
         cmocka_unit_test(gltf_alpha_is_as_its_mode_says),
+        cmocka_unit_test(images_inside_gltf_are_found),
+        cmocka_unit_test(textures_may_be_moved_and_scaled),
         cmocka_unit_test(nodes_move_turn_scale_mirror_and_repeat),
     };
     return cmocka_run_group_tests(tests, files_begin, files_end);
