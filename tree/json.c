@@ -23,13 +23,12 @@ pps_status pps_json_load(const pps_json_file *file, pps_json *root) {
         return pps_complain(file->problem, status, "%s: %s", file->path,
                             status == PPS_ERR_FILE ? strerror(errno) : "out of memory");
     }
-    root->value = json_loadb((const char *)bytes, n,
-                             JSON_REJECT_DUPLICATES | JSON_DECODE_ANY, &error);
+    root->value = json_loadb((const char *)bytes, n, JSON_REJECT_DUPLICATES, &error);
     free(bytes);
     if (root->value) {
         return PPS_OK;
     }
-    if (json_error_code(&error) == json_error_out_of_memory) {
+    if (!*error.text || json_error_code(&error) == json_error_out_of_memory) {
         return pps_complain(file->problem, PPS_ERR_MEMORY, "%s: out of memory",
                             file->path);
     }

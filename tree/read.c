@@ -10,6 +10,7 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 
+#include "tree/doubled.h"
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/read.h"

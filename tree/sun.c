@@ -1,4 +1,4 @@
-/* Where the sun stands: Meeus, Astronomical Algorithms (2nd ed. 1998), chapter 25, low
+/* Where the sun stands: Meeus98, chapter 25, low
  * accuracy (0.01 degree), with the apparent sidereal time of chapter 12.
  *
  * Geometric: refraction, which lifts the sun by 0.02 degree at 40 degrees of elevation and

@@ -156,7 +156,7 @@ typedef struct {
     const float *color;
     pps_problem *problem;
     size_t n;
-    char **name; /* finished, in the order of renaming */
+    char *(*name)[2]; /* final and .part, in the order of renaming */
 } saving;
 
 /* Of name and ".part". */
@@ -207,7 +207,8 @@ static pps_status save(saving *s, char *name, writer *write, size_t material) {
         free(name);
         return PPS_ERR_MEMORY;
     }
-    s->name[s->n++] = name;
+    s->name[s->n][0] = name;
+    s->name[s->n++][1] = part;
     errno = 0;
     FILE *file = fopen(part, "wb");
     pps_status status = file ? write(file, s, material) : PPS_ERR_FILE;
@@ -220,7 +221,6 @@ static pps_status save(saving *s, char *name, writer *write, size_t material) {
     if (status == PPS_ERR_FILE) {
         pps_complain(s->problem, status, "%s: %s", part, strerror(errno));
     }
-    free(part);
     return status;
 }
 
@@ -246,17 +246,16 @@ static pps_status save_all(saving *s) {
 /* To the final names if all went well, the mesh itself last; else away with the parts. */
 static pps_status settle(saving *s, pps_status status) {
     for (size_t i = 0; i < s->n; i++) {
-        char *part = part_of(s->name[i]);
-        if (part && !status && rename(part, s->name[i])) {
-            status = pps_complain(s->problem, PPS_ERR_FILE, "%s: %s", s->name[i],
-                                  strerror(errno));
+        const char *name = s->name[i][0], *part = s->name[i][1];
+        if (!status && rename(part, name)) {
+            status =
+                pps_complain(s->problem, PPS_ERR_FILE, "%s: %s", name, strerror(errno));
         }
-        if (part && status) {
+        if (status) {
             remove(part);
         }
-        status = part || status ? status : PPS_ERR_MEMORY;
-        free(part);
-        free(s->name[i]);
+        free(s->name[i][0]);
+        free(s->name[i][1]);
     }
     return status;
 }

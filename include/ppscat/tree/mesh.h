@@ -113,8 +113,9 @@ typedef struct pps_mesh_read_options {
  * other formats by the opacity image (its alpha channel, else its luminance) or else by
  * the colour image's alpha channel, cut at 0.5. Textures are PNG or JPEG.
  *
- * Of triangles on the same three places one is kept: double-sided cards made of two are
- * one leaf. Triangles without area are left out.
+ * Of triangles on the same three places one is kept, and of a flat quadrangle that is
+ * covered from both sides the first two: double-sided cards are one leaf (n_doubled says
+ * how many triangles went). Triangles without area are left out.
  *
  * FILE: this file, or one it names, cannot be read; FORMAT: not a mesh, or empty;
  * ARGUMENT: nothing matches `leaf` (the problem lists the names), or a bad option.
