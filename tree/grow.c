@@ -46,10 +46,11 @@ static pps_status add_materials(const pps_species *s, uint64_t seed, pps_mesh *m
 static pps_status too_much_wood(const char *name, const pps_species *s, size_t wood,
                                 pps_problem *problem) {
     if (problem) {
-        snprintf(problem->text, sizeof problem->text,
-                 "%.100s: /triangles: wood alone has %zu of the %.0f triangles; ask for "
-                 "more, or for fewer /crown/points",
-                 name, wood, s->triangles);
+        snprintf(
+            problem->text, sizeof problem->text,
+            "%.100s: /triangles: wood alone has %zu of the %.0f triangles; ask for "
+            "more, or for fewer /crown/points",
+            name, wood, s->triangles);
     }
     return PPS_ERR_FORMAT;
 }

@@ -112,7 +112,8 @@ static void level_across(const double along[3], double out[3]) {
 
 /* Turned by random angles, a Gaussian each, standard deviation in degrees. */
 static void tilt(const pps_uniforms *r, double deviation, double n[3]) {
-    double x[3], y[3], size = tan(fmin(80, deviation) * DEGREE) * sqrt(-2 * log(r->u[0]));
+    double x[3], y[3],
+        size = tan(fmin(80, deviation) * DEGREE) * sqrt(-2 * log(r->u[0]));
     vec_frame(n, x, y);
     vec_along(n, size * cos(2 * PI * r->u[1]), x, n);
     vec_along(n, size * sin(2 * PI * r->u[1]), y, n);
@@ -132,14 +133,15 @@ static blade pick_blade(const pps_species *s, uint64_t seed, const site *at,
     vec_cross(at->along, side, third);
     double around = s->leaves.divergence * DEGREE * (double)k +
                     s->leaves.phase * DEGREE * (2 * c.u[0] - 1);
-    double forward = s->leaves.forward[0] +
-                     r.u[0] * (s->leaves.forward[1] - s->leaves.forward[0]);
+    double forward =
+        s->leaves.forward[0] + r.u[0] * (s->leaves.forward[1] - s->leaves.forward[0]);
     double across = cos(forward * DEGREE);
     for (int i = 0; i < 3; i++) {
         out[i] = sin(forward * DEGREE) * at->along[i] +
                  across * (cos(around) * side[i] + sin(around) * third[i]);
     }
-    double stalk = s->leaves.stalk[0] + r.u[1] * (s->leaves.stalk[1] - s->leaves.stalk[0]);
+    double stalk =
+        s->leaves.stalk[0] + r.u[1] * (s->leaves.stalk[1] - s->leaves.stalk[0]);
     blade leaf = {.size = 1 + s->leaves.size_spread * (r.u[2] - 0.5)};
     vec_along(at->at, at->radius + stalk, out, leaf.base);
     for (int i = 0; i < 3; i++) {

@@ -31,14 +31,15 @@ static int sides_of(const pps_species *s, double radius) {
 /* Wider at the foot, in buttresses towards the roots. */
 static double flare(const pps_species *s, double phase, double z, double angle) {
     double share = s->wood.flare * exp(-fmax(0, z) / s->wood.flare_height);
-    return 1 + share * (1 + 0.35 * cos(5 * angle + phase) + 0.2 * cos(3 * angle - phase));
+    return 1 +
+           share * (1 + 0.35 * cos(5 * angle + phase) + 0.2 * cos(3 * angle - phase));
 }
 
 typedef struct {
     const pps_species *species;
-    double phase;         /* of the buttresses */
-    double x[3], along;   /* the frame carried along the branch; length so far */
-    bool foot;            /* a branch that starts in the ground */
+    double phase;       /* of the buttresses */
+    double x[3], along; /* the frame carried along the branch; length so far */
+    bool foot;          /* a branch that starts in the ground */
 } tube;
 
 static ring add_ring(tube *t, const double at[3], const double way[3], double radius,
@@ -101,6 +102,16 @@ static void way_at(const pps_skeleton *s, uint32_t from, uint32_t k, double out[
     vec_normalize(out);
 }
 
+/* Rings near the ground lie level, or a leaning stem's would reach below it. */
+static void level_near_ground(const pps_species *s, double z, double way[3]) {
+    static const double up[3] = {0, 0, 1};
+    double free = fmin(1, fmax(0, z) / (4 * s->wood.flare_height));
+    for (int i = 0; i < 3; i++) {
+        way[i] = free * way[i] + (1 - free) * up[i];
+    }
+    vec_normalize(way);
+}
+
 /* The branch that starts with node k, out of its parent or out of the ground. */
 static void add_branch(const pps_species *species, double phase, const pps_skeleton *s,
                        uint32_t k, uint32_t material, pps_builder *b) {
@@ -127,6 +138,9 @@ static void add_branch(const pps_species *species, double phase, const pps_skele
             close_ring(last, node->at, t.along, material, b);
         } else {
             way_at(s, before, at, way);
+            if (t.foot) {
+                level_near_ground(species, node->at[2], way);
+            }
             ring next = add_ring(&t, node->at, way, node->radius, b);
             join_rings(last, next, material, b);
             last = next;
@@ -138,8 +152,7 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
                     const pps_skeleton *skeleton, uint32_t material, pps_builder *b) {
     for (uint32_t k = 0; k < skeleton->n; k++) {
         uint32_t parent = skeleton->node[k].parent;
-        bool begins =
-            parent == PPS_NO_NODE || skeleton->node[parent].main_child != k;
+        bool begins = parent == PPS_NO_NODE || skeleton->node[parent].main_child != k;
         if (begins) {
             double phase =
                 2 * PI * pps_random(seed, PPS_RANDOM_SPECIES, k, BUTTRESS).u[0];
@@ -150,9 +163,7 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
 
 /* ---- bark ---- */
 
-static uint8_t share(double x) {
-    return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5);
-}
+static uint8_t share(double x) { return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5); }
 
 pps_texture pps_wood_bark(const pps_species *species, uint64_t seed) {
     enum { WIDTH = 256, HEIGHT = 128, DASHES = 260 };

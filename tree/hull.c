@@ -38,8 +38,7 @@ static size_t sieve(size_t n, double (*point)[2]) {
         int inside = 1;
         for (int k = 0; k < 8 && inside; k++) {
             const double *a = far[k], *b = far[(k + 1) % 8];
-            inside =
-                (a[0] == b[0] && a[1] == b[1]) || turn(a, b, point[i]) > 0;
+            inside = (a[0] == b[0] && a[1] == b[1]) || turn(a, b, point[i]) > 0;
         }
         if (!inside) {
             memmove(point[kept++], point[i], sizeof *point);

@@ -122,17 +122,18 @@ static void leaf_radiance(const painter *p, const pps_hit *hit, double rgb[3]) {
     size_t at = hit->leaf * (size_t)p->scene->n_bands;
     int face = hit->front ? PPS_FRONT : PPS_BACK, other = 1 - face;
     const double *own = (hit->front ? p->irradiance->front : p->irradiance->back) + at;
-    const double *through = (hit->front ? p->irradiance->back : p->irradiance->front) + at;
+    const double *through =
+        (hit->front ? p->irradiance->back : p->irradiance->front) + at;
     double pattern[3];
-    const double *mean =
-        p->dress[prototype - p->scene->prototype].mean[mesh->material_of[hit->triangle]];
+    const double *mean = p->dress[prototype - p->scene->prototype]
+                             .mean[mesh->material_of[hit->triangle]];
     pps_texture_at(mesh, hit->triangle, hit->u, hit->v, pattern);
     for (int c = 0; c < 3; c++) {
         int b = band_of(p->scene, c);
-        double light =
-            b < 0 ? 0
-                  : prototype->optics.reflectance[face][b] * own[b] +
-                        prototype->optics.transmittance[other][b] * through[b];
+        double light = b < 0
+                           ? 0
+                           : prototype->optics.reflectance[face][b] * own[b] +
+                                 prototype->optics.transmittance[other][b] * through[b];
         rgb[c] = light / PI * (mean[c] > 0 ? pattern[c] / mean[c] : 1);
     }
 }
@@ -266,8 +267,8 @@ static void wood_radiance(const painter *p, const pps_hit *hit, const double vie
     }
 }
 
-static void ground_radiance(const painter *p, const double point[3], spread *s, size_t n,
-                            double rgb[3]) {
+static void ground_radiance(const painter *p, const double point[3], spread *s,
+                            size_t n, double rgb[3]) {
     static const double up[3] = {0, 0, 1};
     irradiance_at(p, point, up, up, s, n, rgb);
     for (int c = 0; c < 3; c++) {
@@ -353,8 +354,9 @@ static void paint_pixel(const painter *p, const view *v, int samples, int width,
     double sum[3] = {0, 0, 0};
     for (int k = 0; k < samples * samples; k++) {
         double rgb[3];
-        pps_line line = line_through(v, picture, width, x + (k % samples + 0.5) / samples,
-                                     y + (k / samples + 0.5) / samples);
+        pps_line line =
+            line_through(v, picture, width, x + (k % samples + 0.5) / samples,
+                         y + (k / samples + 0.5) / samples);
         if (p->false_color) {
             look_false(p, &line, rgb);
         } else {

@@ -70,12 +70,13 @@ static pps_status add_stem(const pps_species *species, uint64_t seed, int i,
         double bend = species->stems.wander * height * t;
         double p[3] = {0, 0, z};
         vec_along(p, foot + z * tan(lean) * (0.5 + 0.5 * t), out, p);
-        vec_along(p, 0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
-                         0.35 * bend * sin(2 * PI * q.u[0]),
+        vec_along(p,
+                  0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
+                      0.35 * bend * sin(2 * PI * q.u[0]),
                   side, p);
-        vec_along(p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) -
-                                    sin(2 * PI * q.u[1])),
-                  out, p);
+        vec_along(
+            p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) - sin(2 * PI * q.u[1])),
+            out, p);
         status = add_node(s, k ? (uint32_t)s->n - 1 : PPS_NO_NODE, p);
     }
     return status;
@@ -367,8 +368,8 @@ static pps_status branch(const pps_species *species, uint64_t seed, pps_skeleton
     double near = fmax(species->growth.kill, 1.5 * species->growth.step);
     pps_status status = colonise(species, seed, near, point, n_limbs, s);
     if (!status) {
-        status = colonise(species, seed, species->growth.kill, point + n_limbs, n_twigs,
-                          s);
+        status =
+            colonise(species, seed, species->growth.kill, point + n_limbs, n_twigs, s);
     }
     free(point);
     return status;
@@ -409,11 +410,11 @@ static pps_status smooth(pps_skeleton *s) {
             const pps_node *node = &s->node[k];
             bool end = node->parent == PPS_NO_NODE || node->main_child == PPS_NO_NODE;
             for (int i = 0; i < 3; i++) {
-                moved[k][i] = end ? node->at[i]
-                                  : node->at[i] / 2 +
-                                        (s->node[node->parent].at[i] +
-                                         s->node[node->main_child].at[i]) /
-                                            4;
+                moved[k][i] =
+                    end ? node->at[i]
+                        : node->at[i] / 2 + (s->node[node->parent].at[i] +
+                                             s->node[node->main_child].at[i]) /
+                                                4;
             }
         }
         for (size_t k = 0; k < s->n; k++) {

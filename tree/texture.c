@@ -23,7 +23,8 @@ static void look_up(const pps_texture *t, double u, double v, double rgb[3]) {
         rgb[c] = 0;
         for (int k = 0; k < 4; k++) {
             double share = (k & 1 ? right : 1 - right) * (k & 2 ? down : 1 - down);
-            rgb[c] += share * srgb_decode(texel(t, left + (k & 1), up + (k >> 1))[c] / 255.0);
+            rgb[c] +=
+                share * srgb_decode(texel(t, left + (k & 1), up + (k >> 1))[c] / 255.0);
         }
     }
 }
