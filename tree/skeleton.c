@@ -398,6 +398,33 @@ static void count_tips(pps_skeleton *s) {
     }
 }
 
+/* Stems that stood in the shade of the others, with hardly a twig, are taken away: they
+ * would be bare poles as thin as a twig. */
+static pps_status prune(pps_skeleton *s) {
+    uint32_t *now = malloc((s->n + 1) * sizeof *now), most = 0;
+    if (!now) {
+        return PPS_ERR_MEMORY;
+    }
+    for (size_t k = 0; k < s->n; k++) {
+        most = s->node[k].tips > most ? s->node[k].tips : most;
+    }
+    size_t kept = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        pps_node node = s->node[k];
+        bool foot = node.parent == PPS_NO_NODE;
+        bool gone = foot ? node.tips < most / 12 : now[node.parent] == PPS_NO_NODE;
+        now[k] = gone ? PPS_NO_NODE : (uint32_t)kept;
+        if (!gone) {
+            node.parent = foot ? PPS_NO_NODE : now[node.parent];
+            s->node[kept++] = node;
+        }
+    }
+    s->n = kept;
+    free(now);
+    count_tips(s);
+    return PPS_OK;
+}
+
 /* Steps in the directions of a moment leave kinks: each node moves to the middle of its
  * neighbours on the way from foot to tip; feet and tips stay. */
 static pps_status smooth(pps_skeleton *s) {
@@ -492,7 +519,8 @@ pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
     status = status ? status : branch(species, seed, out);
     if (!status) {
         count_tips(out);
-        status = smooth(out);
+        status = prune(out);
+        status = status ? status : smooth(out);
     }
     if (!status) {
         set_radii(species, out);
