@@ -12,7 +12,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { LEAST_SIDES = 3, BARK = 20 << 8, BUTTRESS = 21 << 8 };
+enum { LEAST_SIDES = 3, BUTTRESS = 21 << 8 };
 
 typedef struct {
     uint32_t first; /* of sides + 1 vertices: the seam is there twice */
@@ -159,42 +159,4 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
             add_branch(species, phase, skeleton, k, material, b);
         }
     }
-}
-
-/* ---- bark ---- */
-
-static uint8_t share(double x) { return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5); }
-
-pps_texture pps_wood_bark(const pps_species *species, uint64_t seed) {
-    enum { WIDTH = 256, HEIGHT = 128, DASHES = 260 };
-    double *light = malloc((size_t)WIDTH * HEIGHT * sizeof *light);
-    pps_texture texture = {0, 0, malloc((size_t)4 * WIDTH * HEIGHT)};
-    if (!light || !texture.rgba) {
-        free(light);
-        free(texture.rgba);
-        return (pps_texture){0, 0, NULL};
-    }
-    for (uint64_t i = 0; i < (uint64_t)WIDTH * HEIGHT; i++) {
-        light[i] = 0.62 + 0.1 * pps_random(seed, PPS_RANDOM_SPECIES, i, BARK).u[0];
-    }
-    for (uint64_t i = 0; i < DASHES; i++) {
-        pps_uniforms r = pps_random(seed, PPS_RANDOM_SPECIES, i, BARK + 1);
-        int x = (int)(r.u[0] * WIDTH), y = (int)(r.u[1] * HEIGHT);
-        int length = 4 + (int)(r.u[2] * r.u[2] * 44), thick = r.u[3] > 0.7 ? 2 : 1;
-        for (int p = 0; p < length * thick; p++) {
-            int row = (y + p / length) % HEIGHT, column = (x + p % length) % WIDTH;
-            light[row * WIDTH + column] +=
-                species->wood.lenticels * (0.15 + 0.25 * r.u[3]);
-        }
-    }
-    texture.width = WIDTH;
-    texture.height = HEIGHT;
-    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
-        texture.rgba[4 * i] = share(light[i] * 1.02);
-        texture.rgba[4 * i + 1] = share(light[i]);
-        texture.rgba[4 * i + 2] = share(light[i] * 0.98);
-        texture.rgba[4 * i + 3] = 255;
-    }
-    free(light);
-    return texture;
 }

@@ -492,7 +492,8 @@ static void simplify(const pps_species *species, pps_skeleton *s) {
             const pps_node *child = &s->node[node.main_child];
             double span[3];
             vec_sub(child->at, parent->at, span);
-            drop = parent->n_children == 1 && vec_length(span) < longest &&
+            bool flares = node.at[2] < 3 * species->wood.flare_height;
+            drop = !flares && parent->n_children == 1 && vec_length(span) < longest &&
                    off_line(node.at, parent->at, child->at) < 0.3 * node.radius + 0.004;
         }
         if (drop) {
