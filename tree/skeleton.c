@@ -453,7 +453,7 @@ static pps_status smooth(pps_skeleton *s) {
     return PPS_OK;
 }
 
-/* The pipe model (Shinozaki et al. 1964) with the power that makes the thickest stem as
+/* The pipe model (SYHK64) with the power that makes the thickest stem as
  * thick as asked for: radius^power adds up over the tips. */
 static void set_radii(const pps_species *species, pps_skeleton *s) {
     double most = 2, ratio = species->wood.trunk_radius / species->wood.twig_radius;

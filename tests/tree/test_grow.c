@@ -97,6 +97,55 @@ static void a_seed_is_a_plant(void **state) {
     }
 }
 
+/* The same tree on every machine: points of it as they were when the species was drawn.
+ * After a change of a species or of how plants grow, these are to be written anew. */
+static void a_seed_is_the_same_plant_everywhere(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        size_t n_vertices, vertex;
+        double at[3];
+    } want[] = {
+        {"cherry", 118326, 2958, {1.9005893, -1.5827082, 2.8760089}},
+        {"cherry", 118326, 59163, {-1.3511081, -0.2499497, 4.2133769}},
+        {"cherry", 118326, 118325, {-2.6308388, 0.7394436, 2.1601681}},
+        {"maple", 250864, 6271, {0.8178876, 0.4284600, 2.8775255}},
+        {"maple", 250864, 125432, {0.3022110, 0.9931424, 3.7316670}},
+        {"maple", 250864, 250863, {1.9493876, 1.0710603, 2.2784571}},
+    };
+    pps_mesh *mesh = NULL;
+    for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
+        mesh = grow(want[i].name, 1);
+        assert_int_equal(mesh->n_vertices, want[i].n_vertices);
+        for (int k = 0; k < 3; k++) {
+            assert_close(mesh->position[want[i].vertex][k], want[i].at[k], 0, 1e-6);
+        }
+        pps_mesh_free(mesh);
+    }
+}
+
+static void every_number_is_documented(void **state) {
+    (void)state;
+    static const char *const pointers[] = {
+#define X(pointer, member, low, high) pointer,
+#include "tree/species.def"
+#undef X
+        "/crown/profile", "/wood/color", "/leaves/outline", "/leaves/reflectance",
+        "/leaves/transmittance"};
+    static char text[1 << 16];
+    FILE *file = fopen(SPECIES_MD, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    for (size_t i = 0; i < sizeof pointers / sizeof *pointers; i++) {
+        char quoted[64];
+        snprintf(quoted, sizeof quoted, "`%s`", pointers[i]);
+        if (!strstr(text, quoted)) {
+            fail_msg("%s is not in docs/species.md", pointers[i]);
+        }
+    }
+}
+
 /* ---- leaves hang on wood ---- */
 
 /* From a point to a triangle (Ericson 2005, section 5.1.5: by Voronoi regions). */
@@ -396,6 +445,8 @@ int main(void) {
         cmocka_unit_test(counts_and_leaf_area_hold_for_every_seed),
         cmocka_unit_test(plants_stand_at_the_origin),
         cmocka_unit_test(a_seed_is_a_plant),
+        cmocka_unit_test(a_seed_is_the_same_plant_everywhere),
+        cmocka_unit_test(every_number_is_documented),
         cmocka_unit_test(every_leaf_hangs_on_wood),
         cmocka_unit_test(no_triangle_is_degenerate),
         cmocka_unit_test(wood_has_no_cracks),

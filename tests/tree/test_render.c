@@ -321,6 +321,29 @@ static void false_colours_show_the_value(void **state) {
     pps_scene_free(scene);
 }
 
+/* Period 4: copies of the plank are not seen, but their shadows are. */
+static void a_scene_that_repeats_is_shown_once_and_lit_amid_all(void **state) {
+    (void)state;
+    square at[] = {{0, 0, 1, WOOD}};
+    pps_scene *scene = scene_of(squares(1, at));
+    pps_irradiance *light = no_light(scene);
+    double rgb[3];
+    scene->prototype[0].mesh->material[WOOD].color[0] = 1;
+    scene->prototype[0].mesh->material[WOOD].color[1] = 1;
+    scene->prototype[0].mesh->material[WOOD].color[2] = 1;
+    scene->ground.present = true;
+    scene->ground.reflectance[0] = 0.3;
+    scene->period[0] = scene->period[1] = 4;
+    look_at(scene, light, 0.5, 0.5, 0, 3, rgb); /* the plank itself */
+    assert_close(rgb[0], 1 / PI, 1e-6, 0);
+    look_at(scene, light, 12.5, -7.5, 0, 3, rgb); /* the ground under a copy */
+    assert_close(rgb[0], 0, 0, 0);
+    look_at(scene, light, 14.5, -7.5, 0, 3, rgb); /* between copies */
+    assert_close(rgb[0], 0.3 / PI, 1e-6, 0);
+    pps_irradiance_free(light);
+    pps_scene_free(scene);
+}
+
 static void bad_arguments_are_refused(void **state) {
     (void)state;
     square at[] = {{0, 0, 1, LEAF}, {3, 0, 1, LEAF}};
@@ -357,6 +380,7 @@ int main(void) {
         cmocka_unit_test(pictures_are_not_mirrored),
         cmocka_unit_test(threads_do_not_change_the_picture),
         cmocka_unit_test(false_colours_show_the_value),
+        cmocka_unit_test(a_scene_that_repeats_is_shown_once_and_lit_amid_all),
         cmocka_unit_test(bad_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
