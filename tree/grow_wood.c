@@ -12,7 +12,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { LEAST_SIDES = 3, BARK = 20 << 8, BUTTRESS = 21 << 8 };
+enum { LEAST_SIDES = 3, BUTTRESS = 21 << 8 };
 
 typedef struct {
     uint32_t first; /* of sides + 1 vertices: the seam is there twice */
@@ -102,6 +102,16 @@ static void way_at(const pps_skeleton *s, uint32_t from, uint32_t k, double out[
     vec_normalize(out);
 }
 
+/* Rings near the ground lie level, or a leaning stem's would reach below it. */
+static void level_near_ground(const pps_species *s, double z, double way[3]) {
+    static const double up[3] = {0, 0, 1};
+    double free = fmin(1, fmax(0, z) / (4 * s->wood.flare_height));
+    for (int i = 0; i < 3; i++) {
+        way[i] = free * way[i] + (1 - free) * up[i];
+    }
+    vec_normalize(way);
+}
+
 /* The branch that starts with node k, out of its parent or out of the ground. */
 static void add_branch(const pps_species *species, double phase, const pps_skeleton *s,
                        uint32_t k, uint32_t material, pps_builder *b) {
@@ -128,6 +138,9 @@ static void add_branch(const pps_species *species, double phase, const pps_skele
             close_ring(last, node->at, t.along, material, b);
         } else {
             way_at(s, before, at, way);
+            if (t.foot) {
+                level_near_ground(species, node->at[2], way);
+            }
             ring next = add_ring(&t, node->at, way, node->radius, b);
             join_rings(last, next, material, b);
             last = next;

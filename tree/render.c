@@ -33,7 +33,9 @@ typedef struct {
     const pps_scene *scene;
     const pps_irradiance *irradiance;
     const pps_false_color *false_color;
-    pps_rays *rays;
+    pps_scene once; /* the scene without its repetitions */
+    pps_rays *seen,
+        *light;   /* the same, unless the scene repeats: shown once, lit amid all */
     dress *dress; /* of each prototype */
 } painter;
 
@@ -90,13 +92,23 @@ static void painter_free(painter *p) {
         free(p->dress[i].mean);
     }
     free(p->dress);
-    pps_rays_free(p->rays);
+    if (p->light != p->seen) {
+        pps_rays_free(p->light);
+    }
+    pps_rays_free(p->seen);
 }
 
 static pps_status painter_init(const pps_scene *scene, painter *p) {
     p->scene = scene;
     p->dress = calloc(scene->n_prototypes, sizeof *p->dress);
-    pps_status status = p->dress ? pps_rays_create(scene, &p->rays) : PPS_ERR_MEMORY;
+    p->once = *scene;
+    p->once.period[0] = p->once.period[1] = 0;
+    pps_status status = p->dress ? pps_rays_create(&p->once, &p->seen) : PPS_ERR_MEMORY;
+    if (!status && scene->period[0] > 0) {
+        status = pps_rays_create(scene, &p->light);
+    } else {
+        p->light = p->seen;
+    }
     for (size_t i = 0; i < scene->n_prototypes && !status; i++) {
         status = dress_up(scene->prototype[i].mesh, &p->dress[i]);
     }
@@ -151,8 +163,8 @@ static void sun_on(const painter *p, const double point[3], const double geometr
     const pps_sun *sun = &p->scene->sun;
     double cosine = fmax(0, vec_dot(normal, sun->to));
     if (cosine > 0) {
-        pps_line line = pps_rays_leave(p->rays, point, geometric, sun->to);
-        cosine = pps_rays_occluded(p->rays, &line) ? 0 : cosine;
+        pps_line line = pps_rays_leave(p->light, point, geometric, sun->to);
+        cosine = pps_rays_occluded(p->light, &line) ? 0 : cosine;
     }
     for (int c = 0; c < 3; c++) {
         int b = band_of(p->scene, c);
@@ -190,7 +202,7 @@ static void light_along(const painter *p, const pps_line *line, double rgb[3]) {
     pps_hit hit;
     double point[3];
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (pps_rays_nearest(p->rays, line, &hit)) {
+    if (pps_rays_nearest(p->light, line, &hit)) {
         if (hit.leaf != SIZE_MAX) {
             leaf_radiance(p, &hit, rgb);
         }
@@ -217,7 +229,7 @@ static void irradiance_at(const painter *p, const double point[3],
         vec_along(to, across * sin(2 * PI * v), y, to);
         vec_along(to, sqrt(1 - u), normal, to);
         vec_normalize(to);
-        pps_line line = pps_rays_leave(p->rays, point, geometric, to);
+        pps_line line = pps_rays_leave(p->light, point, geometric, to);
         light_along(p, &line, light);
         for (int c = 0; c < 3; c++) {
             rgb[c] += PI / (double)n * light[c];
@@ -281,7 +293,7 @@ static void look(const painter *p, const pps_line *line, spread *s, size_t n,
                  double rgb[3]) {
     pps_hit hit;
     double point[3];
-    if (pps_rays_nearest(p->rays, line, &hit)) {
+    if (pps_rays_nearest(p->seen, line, &hit)) {
         if (hit.leaf != SIZE_MAX) {
             leaf_radiance(p, &hit, rgb);
         } else {
@@ -297,7 +309,7 @@ static void look(const painter *p, const pps_line *line, spread *s, size_t n,
 /* Leaves by their value, wood dark, the rest white. */
 static void look_false(const painter *p, const pps_line *line, double rgb[3]) {
     pps_hit hit;
-    if (!pps_rays_nearest(p->rays, line, &hit)) {
+    if (!pps_rays_nearest(p->seen, line, &hit)) {
         rgb[0] = rgb[1] = rgb[2] = 1;
     } else if (hit.leaf == SIZE_MAX) {
         rgb[0] = rgb[1] = rgb[2] = 0.04;
