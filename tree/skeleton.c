@@ -151,9 +151,6 @@ static double widest(const pps_species *s) {
     return radius;
 }
 
-/* Evenly in the crown, the inner part `hollow` of its radius left out. */
-static void point_in_crown(const pps_species *s, uint64_t seed, uint64_t i,
-                           double out[3]) {
 /* Evenly in the crown, the inner part `hollow` of its radius left out but for the top. */
 static void point_in_crown(const pps_species *s, uint64_t seed, int use, uint64_t i,
                            double hollow, double out[3]) {
@@ -202,17 +199,10 @@ static tier tier_at(const pps_species *s, uint64_t seed, uint64_t i) {
 /* Evenly over the tiers: the draw of a tier is accepted by its area. */
 static void point_in_tier(const pps_species *s, uint64_t seed, uint64_t i,
                           double out[3]) {
-    double low = s->crown.profile[0][0],
-           high = s->crown.profile[s->crown.n_profile - 1][0];
     pps_uniforms r = draw(seed, POINT, i, 0);
     tier t;
     for (uint64_t again = 1;; again++) {
         pps_uniforms pick = draw(seed, POINT, i, again);
-        tier = (uint64_t)(pick.u[0] * (double)n);
-        pps_uniforms size = draw(seed, TIER, tier, 0);
-        radius =
-            s->tiers.radius[0] + size.u[0] * (s->tiers.radius[1] - s->tiers.radius[0]);
-        double ratio = radius / s->tiers.radius[1];
         t = tier_at(s, seed, (uint64_t)(pick.u[0] * s->tiers.count));
         double ratio = t.radius / s->tiers.radius[1];
         if (pick.u[1] < ratio * ratio) {

@@ -37,8 +37,6 @@ static const number NUMBERS[] = {
 enum { N_NUMBERS = sizeof NUMBERS / sizeof *NUMBERS };
 
 /* Counts, which must be whole. */
-static const char *const WHOLE[] = {"/triangles",     "/stems/count", "/crown/points",
-                                    "/tiers/count",   "/wood/sides",  "/leaves/whorl",
 static const char *const WHOLE[] = {"/triangles",     "/stems/count",  "/stems/forks",
                                     "/crown/limbs",   "/crown/points", "/tiers/count",
                                     "/tiers/levels",  "/wood/sides",   "/leaves/whorl",
