@@ -35,7 +35,7 @@ struct pps_lattice {
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
     size_t n_state;
     pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
-    float *weight;            /* of the state: power per cell face and unit */
+    float *weight;            /* per leaf cell: depth */
     float *sky_below; /* [j * n_columns + column]: the share that reaches the ground */
     pps_sweeper sweeper;
     pps_anderson anderson;
@@ -146,15 +146,14 @@ static pps_status allocate(pps_lattice *l) {
     return PPS_OK;
 }
 
-/* What the sweeps iterate, and what each of it weighs: all as power through the face of a
- * cell, so that one sum of squares is fair to leaves, sides and ground. */
+/* What the sweeps iterate. Leaves alone are measured: light that crosses the sides settles
+ * by itself in a few sweeps, and only has to be mixed as the leaves' light is. */
 static pps_status make_state(pps_lattice *l) {
-    size_t sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
-    size_t columns = l->ground ? l->n_columns : 0, n = l->n_leaf_cells;
-    double directions = l->n_directions;
-    l->n_state = n + sides + columns;
+    size_t n = l->n_leaf_cells;
+    l->n_state = n + (l->sweeper.periodic ? l->sweeper.n_sides : 0) +
+                 (l->ground ? l->n_columns : 0);
     l->state = bands_array(2 * l->n_state);
-    l->weight = malloc((l->n_state + 1) * sizeof *l->weight);
+    l->weight = malloc((n + 1) * sizeof *l->weight);
     if (!l->state || !l->weight) {
         return PPS_ERR_MEMORY;
     }
@@ -162,14 +161,7 @@ static pps_status make_state(pps_lattice *l) {
     for (size_t i = 0; i < n; i++) {
         l->weight[i] = l->depth[l->leaf_cell[i]];
     }
-    for (size_t i = 0; i < sides; i++) {
-        l->weight[n + i] = (float)(0.5 / directions); /* mean |cos| */
-    }
-    for (size_t i = 0; i < columns; i++) {
-        l->weight[n + sides + i] =
-            (float)(1 / (directions * directions * l->up_cosine));
-    }
-    return pps_anderson_init(&l->anderson, l->n_state);
+    return pps_anderson_init(&l->anderson, l->n_state, n);
 }
 
 static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
