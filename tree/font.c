@@ -21,7 +21,8 @@ int pps_font_width(const char *text, int scale) {
 static void dot(pps_picture *picture, int x, int y, int scale) {
     for (int i = 0; i < scale * scale; i++) {
         int column = x + i % scale, row = y + i / scale;
-        if (column >= 0 && column < picture->width && row >= 0 && row < picture->height) {
+        if (column >= 0 && column < picture->width && row >= 0 &&
+            row < picture->height) {
             memset(&picture->rgb[3 * (row * picture->width + column)], 0,
                    3 * sizeof *picture->rgb);
         }

@@ -15,6 +15,8 @@
 static const double PI = 3.14159265358979323846;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
+static const double TIP_WEIGHT = 2;
+
 /* Events of the leaves' random numbers; the skeleton's items are above 2^40. */
 enum { SITE = 1 << 8, FRAME = 2 << 8, TILT = 3 << 8 };
 
@@ -49,7 +51,8 @@ static void place(const blade *leaf, double size, const double own[3], double ou
 
 /* ---- sites ---- */
 
-/* How much of the wood up to each node bears leaves, metres. */
+/* How much of the wood up to each node bears leaves, metres; the last stretch of a twig
+ * bears more of them. */
 static double *leafy_lengths(const pps_species *s, const pps_skeleton *skeleton) {
     double *sum = malloc((skeleton->n + 1) * sizeof *sum), total = 0;
     for (size_t k = 0; sum && k < skeleton->n; k++) {
@@ -57,7 +60,7 @@ static double *leafy_lengths(const pps_species *s, const pps_skeleton *skeleton)
         if (node->parent != PPS_NO_NODE && node->radius < s->leaves.wood_below) {
             double along[3];
             vec_sub(node->at, skeleton->node[node->parent].at, along);
-            total += vec_length(along);
+            total += (node->n_children == 0 ? TIP_WEIGHT : 1) * vec_length(along);
         }
         sum[k] = total;
     }
@@ -91,7 +94,7 @@ static site pick_site(uint64_t seed, const pps_skeleton *skeleton, const double 
     const pps_node *node = &skeleton->node[k];
     site s = {.radius = node->radius};
     vec_sub(node->at, skeleton->node[node->parent].at, s.along);
-    double back = (sum[k] - where) / vec_length(s.along);
+    double back = (sum[k] - where) / (sum[k] - (k ? sum[k - 1] : 0));
     vec_along(node->at, -back, s.along, s.at);
     vec_normalize(s.along);
     return s;
@@ -109,7 +112,8 @@ static void level_across(const double along[3], double out[3]) {
 
 /* Turned by random angles, a Gaussian each, standard deviation in degrees. */
 static void tilt(const pps_uniforms *r, double deviation, double n[3]) {
-    double x[3], y[3], size = tan(fmin(80, deviation) * DEGREE) * sqrt(-2 * log(r->u[0]));
+    double x[3], y[3],
+        size = tan(fmin(80, deviation) * DEGREE) * sqrt(-2 * log(r->u[0]));
     vec_frame(n, x, y);
     vec_along(n, size * cos(2 * PI * r->u[1]), x, n);
     vec_along(n, size * sin(2 * PI * r->u[1]), y, n);
@@ -129,14 +133,15 @@ static blade pick_blade(const pps_species *s, uint64_t seed, const site *at,
     vec_cross(at->along, side, third);
     double around = s->leaves.divergence * DEGREE * (double)k +
                     s->leaves.phase * DEGREE * (2 * c.u[0] - 1);
-    double forward = s->leaves.forward[0] +
-                     r.u[0] * (s->leaves.forward[1] - s->leaves.forward[0]);
+    double forward =
+        s->leaves.forward[0] + r.u[0] * (s->leaves.forward[1] - s->leaves.forward[0]);
     double across = cos(forward * DEGREE);
     for (int i = 0; i < 3; i++) {
         out[i] = sin(forward * DEGREE) * at->along[i] +
                  across * (cos(around) * side[i] + sin(around) * third[i]);
     }
-    double stalk = s->leaves.stalk[0] + r.u[1] * (s->leaves.stalk[1] - s->leaves.stalk[0]);
+    double stalk =
+        s->leaves.stalk[0] + r.u[1] * (s->leaves.stalk[1] - s->leaves.stalk[0]);
     blade leaf = {.size = 1 + s->leaves.size_spread * (r.u[2] - 0.5)};
     vec_along(at->at, at->radius + stalk, out, leaf.base);
     for (int i = 0; i < 3; i++) {
@@ -168,7 +173,7 @@ static pps_status pick_blades(const pps_species *s, uint64_t seed,
         return PPS_ERR_MEMORY;
     }
     size_t cluster = (size_t)s->leaves.cluster, clusters = (n + cluster - 1) / cluster;
-    bool bare = !(sum[skeleton->n - 1] > 0);
+    bool bare = skeleton->n == 0 || !(sum[skeleton->n - 1] > 0);
     for (size_t i = 0; i < n && !bare; i++) {
         site at = pick_site(seed, skeleton, sum, i / cluster, clusters);
         leaf[i] = pick_blade(s, seed, &at, i / cluster, i % cluster);

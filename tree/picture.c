@@ -58,7 +58,7 @@ static double auto_exposure(const pps_picture *picture) {
         largest[i] = isfinite(most) ? most : 0;
     }
     qsort(largest, n, sizeof *largest, by_size);
-    double white = (double)largest[n - 1 - n / 100];
+    double white = (double)largest[n - (n >= 100 ? n / 100 : 1)];
     white = white > 0 ? white : (double)largest[n - 1];
     free(largest);
     return white > 0 ? 1 / white : 1;
@@ -66,8 +66,8 @@ static double auto_exposure(const pps_picture *picture) {
 
 static pps_status fail(pps_problem *problem, const char *path, const char *why) {
     if (problem) {
-        snprintf(problem->text, sizeof problem->text, "cannot write %.300s: %.150s", path,
-                 why);
+        snprintf(problem->text, sizeof problem->text, "cannot write %.300s: %.150s",
+                 path, why);
     }
     return PPS_ERR_FILE;
 }
