@@ -62,8 +62,16 @@ typedef struct {
 
 static int by_look(const void *a, const void *b) {
     const cut *p = a, *q = b;
-    return p->material != q->material ? (p->material < q->material ? -1 : 1)
-                                      : memcmp(p->uv, q->uv, sizeof p->uv);
+    if (p->material != q->material) {
+        return p->material < q->material ? -1 : 1;
+    }
+    for (int i = 0; i < 6; i++) {
+        float u = p->uv[i / 2][i % 2], v = q->uv[i / 2][i % 2];
+        if (u < v || u > v) {
+            return u < v ? -1 : 1;
+        }
+    }
+    return 0;
 }
 
 static size_t list_cuts(const pps_mesh *mesh, cut *list) {

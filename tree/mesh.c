@@ -56,14 +56,19 @@ typedef struct {
     uint32_t vertex;
 } place;
 
-static int by_place(const void *a, const void *b) {
-    const place *p = a, *q = b;
+static int compare_places(const double a[3], const double b[3]) {
     for (int i = 0; i < 3; i++) {
-        if (p->at[i] != q->at[i]) {
-            return p->at[i] < q->at[i] ? -1 : 1;
+        if (a[i] != b[i]) {
+            return a[i] < b[i] ? -1 : 1;
         }
     }
-    return (p->vertex > q->vertex) - (p->vertex < q->vertex);
+    return 0;
+}
+
+static int by_place(const void *a, const void *b) {
+    const place *p = a, *q = b;
+    int order = compare_places(p->at, q->at);
+    return order ? order : (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
 pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
@@ -77,8 +82,7 @@ pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
     }
     qsort(places, mesh->n_vertices, sizeof *places, by_place);
     for (size_t i = 0; i < mesh->n_vertices; i++) {
-        bool fresh =
-            i == 0 || memcmp(places[i].at, places[i - 1].at, sizeof places[i].at) != 0;
+        bool fresh = i == 0 || compare_places(places[i].at, places[i - 1].at) != 0;
         same[places[i].vertex] = fresh ? places[i].vertex : same[places[i - 1].vertex];
     }
     free(places);
