@@ -16,8 +16,9 @@
 enum { LEAF, WOOD, N_MATERIALS };
 
 static char *copy_string(const char *s) {
-    char *copy = malloc(strlen(s) + 1);
-    return copy ? strcpy(copy, s) : NULL;
+    size_t size = strlen(s) + 1;
+    char *copy = malloc(size);
+    return copy ? memcpy(copy, s, size) : NULL;
 }
 
 /* A texture for a material, if it could be made. */

@@ -56,7 +56,8 @@ pps_texture pps_grow_petal(const pps_species *species) {
     enum { SIDE = 32 };
     pps_texture texture = blank(SIDE, SIDE);
     for (size_t i = 0; texture.rgba && i < (size_t)SIDE * SIDE; i++) {
-        double down = ((double)(i / SIDE) + 0.5) / SIDE; /* 0 at the petal's end */
+        size_t row = i / SIDE;
+        double down = ((double)row + 0.5) / SIDE; /* 0 at the petal's end */
         double dark = species->leaves.heart * down * down;
         set_texel(&texture, i, 1 - 0.15 * dark, 1 - 0.7 * dark, 1 - 0.45 * dark);
     }

@@ -60,19 +60,17 @@ static ring add_ring(tube *t, const double at[3], const double way[3], double ra
     return r;
 }
 
-/* Triangles between two rings, whatever their sides: always on from the one behind. */
+/* Triangles between two rings, whatever their sides: always on along the ring that is
+ * behind. */
 static void join_rings(ring low, ring high, uint32_t material, pps_builder *b) {
     for (int i = 0, k = 0; i < low.sides || k < high.sides;) {
         uint32_t p = low.first + (uint32_t)i, q = high.first + (uint32_t)k;
-        if ((i + 1) * high.sides <= (k + 1) * low.sides && i < low.sides) {
+        if ((i + 1) * high.sides <= (k + 1) * low.sides) {
             pps_build_triangle(b, p, p + 1, q, material);
             i++;
-        } else if (k < high.sides) {
+        } else {
             pps_build_triangle(b, p, q + 1, q, material);
             k++;
-        } else {
-            pps_build_triangle(b, p, p + 1, q, material);
-            i++;
         }
     }
 }

@@ -23,10 +23,11 @@ static const double CREASE = 0.4; /* cosine: sharper edges than this stay sharp 
 
 enum { MOST_SAMPLES = 16, LIGHT_SAMPLES = 16 };
 
-/* What pictures need of a prototype: smooth normals of its wood's vertices, and the mean
- * of each material's texture. */
+/* What pictures need of a prototype: smooth normals of its wood's vertices, its textures
+ * in linear light, and the mean of each material's texture. */
 typedef struct {
     double (*normal)[3], (*mean)[3];
+    float **linear;
 } dress;
 
 typedef struct {
@@ -77,11 +78,23 @@ static pps_status smooth_normals(const pps_mesh *mesh, double (*normal)[3]) {
 static pps_status dress_up(const pps_mesh *mesh, dress *out) {
     out->normal = calloc(mesh->n_vertices + 1, sizeof *out->normal);
     out->mean = calloc(mesh->n_materials + 1, sizeof *out->mean);
-    if (!out->normal || !out->mean) {
+    out->linear = calloc(mesh->n_textures + 1, sizeof *out->linear);
+    if (!out->normal || !out->mean || !out->linear) {
         return PPS_ERR_MEMORY;
     }
+    for (size_t i = 0; i < mesh->n_textures; i++) {
+        out->linear[i] = pps_texture_linear(&mesh->texture[i]);
+        if (!out->linear[i]) {
+            return PPS_ERR_MEMORY;
+        }
+    }
     for (size_t m = 0; m < mesh->n_materials; m++) {
-        pps_texture_mean(mesh, &mesh->material[m], out->mean[m]);
+        int t = mesh->uv ? mesh->material[m].texture : -1;
+        out->mean[m][0] = out->mean[m][1] = out->mean[m][2] = 1;
+        if (t >= 0) {
+            pps_texture_mean(&mesh->texture[t], out->linear[t],
+                             mesh->material[m].alpha_min, out->mean[m]);
+        }
     }
     return smooth_normals(mesh, out->normal);
 }
@@ -90,6 +103,11 @@ static void painter_free(painter *p) {
     for (size_t i = 0; p->dress && i < p->scene->n_prototypes; i++) {
         free(p->dress[i].normal);
         free(p->dress[i].mean);
+        size_t n = p->scene->prototype[i].mesh->n_textures;
+        for (size_t t = 0; p->dress[i].linear && t < n; t++) {
+            free(p->dress[i].linear[t]);
+        }
+        free(p->dress[i].linear);
     }
     free(p->dress);
     if (p->light != p->seen) {
@@ -126,6 +144,25 @@ static const pps_prototype *prototype_of(const painter *p, const pps_hit *hit) {
     return &p->scene->prototype[p->scene->instance[hit->instance].prototype];
 }
 
+/* The colour of the texture where a line hits; white where there is none. */
+static void texture_at(const painter *p, const pps_hit *hit, double rgb[3]) {
+    const pps_prototype *prototype = prototype_of(p, hit);
+    const pps_mesh *mesh = prototype->mesh;
+    int t = mesh->material[mesh->material_of[hit->triangle]].texture;
+    rgb[0] = rgb[1] = rgb[2] = 1;
+    if (mesh->uv && t >= 0) {
+        const uint32_t *corner = mesh->triangle[hit->triangle];
+        double at[2];
+        for (int i = 0; i < 2; i++) {
+            at[i] = (1 - hit->u - hit->v) * (double)mesh->uv[corner[0]][i] +
+                    hit->u * (double)mesh->uv[corner[1]][i] +
+                    hit->v * (double)mesh->uv[corner[2]][i];
+        }
+        const dress *own = &p->dress[prototype - p->scene->prototype];
+        pps_texture_at(&mesh->texture[t], own->linear[t], at[0], at[1], rgb);
+    }
+}
+
 /* (R of the face seen x its irradiance + T of the other x the other's)/pi. The optics are
  * the leaf's mean, so its texture gives the pattern only: divided by its own mean. */
 static void leaf_radiance(const painter *p, const pps_hit *hit, double rgb[3]) {
@@ -139,14 +176,18 @@ static void leaf_radiance(const painter *p, const pps_hit *hit, double rgb[3]) {
     double pattern[3];
     const double *mean = p->dress[prototype - p->scene->prototype]
                              .mean[mesh->material_of[hit->triangle]];
-    pps_texture_at(mesh, hit->triangle, hit->u, hit->v, pattern);
+    texture_at(p, hit, pattern);
+    double grey =
+        (pattern[0] + pattern[1] + pattern[2]) / (mean[0] + mean[1] + mean[2]);
     for (int c = 0; c < 3; c++) {
         int b = band_of(p->scene, c);
-        double light = b < 0
-                           ? 0
-                           : prototype->optics.reflectance[face][b] * own[b] +
-                                 prototype->optics.transmittance[other][b] * through[b];
-        rgb[c] = light / PI * (mean[c] > 0 ? pattern[c] / mean[c] : 1);
+        rgb[c] = 0;
+        if (b >= 0) {
+            double light = prototype->optics.reflectance[face][b] * own[b] +
+                           prototype->optics.transmittance[other][b] * through[b];
+            double share = p->scene->n_bands == 1 ? grey : pattern[c] / mean[c];
+            rgb[c] = light / PI * (isfinite(share) ? share : 1); /* black texture */
+        }
     }
 }
 
@@ -269,7 +310,7 @@ static void wood_radiance(const painter *p, const pps_hit *hit, const double vie
     double geometric[3], normal[3], pattern[3];
     wood_normal(p, hit, view, geometric, normal);
     irradiance_at(p, hit->point, geometric, normal, s, n, rgb);
-    pps_texture_at(mesh, hit->triangle, hit->u, hit->v, pattern);
+    texture_at(p, hit, pattern);
     double grey = 0;
     for (int c = 0; c < 3; c++) {
         grey += color[c] * pattern[c] / 3;
@@ -366,9 +407,9 @@ static void paint_pixel(const painter *p, const view *v, int samples, int width,
     double sum[3] = {0, 0, 0};
     for (int k = 0; k < samples * samples; k++) {
         double rgb[3];
-        pps_line line =
-            line_through(v, picture, width, x + (k % samples + 0.5) / samples,
-                         y + (k / samples + 0.5) / samples);
+        int column = k % samples, row = k / samples;
+        pps_line line = line_through(v, picture, width, x + (column + 0.5) / samples,
+                                     y + (row + 0.5) / samples);
         if (p->false_color) {
             look_false(p, &line, rgb);
         } else {

@@ -11,6 +11,7 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/srgb.h"
+#include "tree/text.h"
 
 /* ---- OBJ ---- */
 
@@ -161,19 +162,14 @@ typedef struct {
 
 /* Of name and ".part". */
 static char *part_of(const char *name) {
-    char *part = malloc(strlen(name) + sizeof ".part");
-    return part ? strcat(strcpy(part, name), ".part") : NULL;
+    return text_join(name, strlen(name), ".part");
 }
 
 /* STEM.mtl, STEM_0.png ... of the mesh file's path. */
 static char *companion(const char *path, const char *format, size_t number) {
-    size_t stem = (size_t)(pps_path_ending(path) - path);
-    char *name = malloc(stem + 32);
-    if (name) {
-        memcpy(name, path, stem);
-        snprintf(name + stem, 32, format, number);
-    }
-    return name;
+    char ending[32];
+    snprintf(ending, sizeof ending, format, number);
+    return text_join(path, (size_t)(pps_path_ending(path) - path), ending);
 }
 
 typedef pps_status writer(FILE *file, const saving *s, size_t material);
@@ -237,8 +233,7 @@ static pps_status save_all(saving *s) {
         status = save(s, companion(s->path, ".mtl", 0), as_mtl, 0);
     }
     if (!status) {
-        char *name = malloc(strlen(s->path) + 1);
-        status = save(s, name ? strcpy(name, s->path) : NULL, obj ? as_obj : as_ply, 0);
+        status = save(s, text_copy(s->path), obj ? as_obj : as_ply, 0);
     }
     return status;
 }

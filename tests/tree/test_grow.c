@@ -202,7 +202,7 @@ static void every_leaf_hangs_on_wood(void **state) {
         pps_mesh *mesh = grow(SPECIES[k], 3);
         assert_int_equal(pps_species_read(SPECIES[k], &species, NULL), PPS_OK);
         double most = 0, least = INFINITY;
-        for (size_t i = 0; i < mesh->n_leaves; i += 23) {
+        for (size_t i = 0; i < mesh->n_leaves; i += 41) {
             uint32_t base = mesh->triangle[mesh->leaf[i].first][0];
             double distance = distance_to_wood(mesh, mesh->position[base]);
             most = fmax(most, distance);

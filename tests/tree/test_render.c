@@ -121,7 +121,7 @@ static void wood_has_the_light_of_leaves(void **state) {
     enum { SHEETS = 4 };
     square at[SHEETS + 1] = {{0, 0, 1, WOOD}};
     for (int i = 0; i < SHEETS; i++) { /* a roof close above the plank */
-        at[i + 1] = (square){(i % 2) - 0.5, (i / 2) - 0.5, 1.02, LEAF};
+        at[i + 1] = (square){(i & 1) - 0.5, (i >> 1) - 0.5, 1.02, LEAF};
     }
     pps_scene *scene = scene_of(squares(SHEETS + 1, at));
     pps_irradiance *light = no_light(scene);
@@ -179,8 +179,9 @@ static void a_texture_keeps_the_mean_radiance(void **state) {
     mesh->n_textures = 1;
     mesh->texture = calloc(1, sizeof *mesh->texture);
     mesh->texture[0] = (pps_texture){16, 16, calloc(4, 256)};
-    for (int i = 0; i < 256; i++) { /* left dark, right bright; equal in colour */
+    for (int i = 0; i < 256; i++) { /* left dark, right bright, and no red */
         memset(&mesh->texture[0].rgba[4 * i], i % 16 < 8 ? 60 : 220, 4);
+        mesh->texture[0].rgba[4 * i] = 0;
     }
     mesh->material[LEAF].texture = 0;
     pps_scene *scene = scene_of(mesh);
@@ -189,7 +190,9 @@ static void a_texture_keeps_the_mean_radiance(void **state) {
     light->front[0] = 1;
     look_at(scene, light, 0.25, 0.5, 1, 1.5, left);
     look_at(scene, light, 0.75, 0.5, 1, 1.5, right);
-    assert_close((left[0] + right[0]) / 2, 0.45 / PI, 1e-6, 0);
+    for (int c = 0; c < 3; c++) { /* one band: grey */
+        assert_close((left[c] + right[c]) / 2, 0.45 / PI, 1e-6, 0);
+    }
     assert_close(right[0] / left[0], srgb_decode(220 / 255.0) / srgb_decode(60 / 255.0),
                  1e-5, 0);
     pps_irradiance_free(light);

@@ -393,7 +393,7 @@ static void grids_are_jittered_turned_and_scaled_within_bounds(void **state) {
     for (int k = 0; k < 32; k++) {
         const pps_instance *one = &scene->instance[k];
         double x = (one->translation[0] - 100) / 5 - (k % 8 - 3.5);
-        double y = one->translation[1] / 6 - (k / 8 - 1.5);
+        double y = one->translation[1] / 6 - ((k - k % 8) / 8.0 - 1.5);
         farthest = fmax(farthest, fmax(fabs(x), fabs(y)));
         assert_close(one->translation[2], 2, 0, 0);
         assert_close(fmod(one->yaw, 72), 0, 0, 0);

@@ -75,7 +75,9 @@ typedef struct pps_mesh_size {
 
 /* From raw triangles to a mesh: `position`, `triangle`, `material_of` and `material` (and
  * uv, texture) are set; groups the triangles into leaves, puts them in order, and fills
- * leaf_of and leaf. Vertices at the same place are one for what is connected. A piece of
+ * leaf_of and leaf. Vertices at the same place are one for what is connected; where more
+ * than two triangles meet at an edge, those within 30 degrees are (crossed cards are two
+ * leaves). A piece of
  * more than PPS_LEAF_TRIANGLES triangles is foliage without leaves of its own: each of its
  * triangles is then a leaf. MEMORY; ARGUMENT: an index out of range, or no triangle. */
 enum { PPS_LEAF_TRIANGLES = 64 };
