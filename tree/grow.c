@@ -21,12 +21,14 @@ static char *copy_string(const char *s) {
     return copy ? memcpy(copy, s, size) : NULL;
 }
 
-/* A texture for a material, if it could be made. */
-static void add_texture(pps_mesh *mesh, pps_material *material, pps_texture texture) {
-    if (texture.rgba) {
-        material->texture = (int)mesh->n_textures;
-        mesh->texture[mesh->n_textures++] = texture;
+static pps_status add_texture(pps_mesh *mesh, pps_material *material,
+                              pps_texture texture) {
+    if (!texture.rgba) {
+        return PPS_ERR_MEMORY;
     }
+    material->texture = (int)mesh->n_textures;
+    mesh->texture[mesh->n_textures++] = texture;
+    return PPS_OK;
 }
 
 /* The colour of leaves is that of white light on both sides. */
@@ -44,13 +46,14 @@ static pps_status add_materials(const pps_species *s, uint64_t seed, pps_mesh *m
         leaf->color[i] = s->leaves.reflectance[i] + s->leaves.transmittance[i];
         wood->color[i] = s->wood.color[i];
     }
-    if (s->leaves.heart > 0) {
-        add_texture(mesh, leaf, pps_grow_petal(s));
+    pps_status status = leaf->name && wood->name ? PPS_OK : PPS_ERR_MEMORY;
+    if (!status && s->leaves.heart > 0) {
+        status = add_texture(mesh, leaf, pps_grow_petal(s));
     }
-    if (s->wood.lenticels > 0) {
-        add_texture(mesh, wood, pps_grow_bark(s, seed));
+    if (!status && s->wood.lenticels > 0) {
+        status = add_texture(mesh, wood, pps_grow_bark(s, seed));
     }
-    return leaf->name && wood->name ? PPS_OK : PPS_ERR_MEMORY;
+    return status;
 }
 
 static pps_status too_much_wood(const char *name, const pps_species *s, size_t wood,

@@ -234,7 +234,7 @@ static pps_status solve_size(const pps_species *s, const blade *leaf, size_t n,
         *size = sqrt(s->leaf_area_index * hull_of(s, leaf, n, *size, point) / area);
     }
     free(point);
-    return PPS_OK;
+    return *size > 0 ? PPS_OK : PPS_ERR_MEMORY; /* a hull of area 0: no memory for it */
 }
 
 /* ---- triangles ---- */

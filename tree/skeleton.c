@@ -477,11 +477,11 @@ static double off_line(const double p[3], const double a[3], const double b[3]) 
 }
 
 /* Nodes that hardly bend the wood between its forks are left out. */
-static void simplify(const pps_species *species, pps_skeleton *s) {
+static pps_status simplify(const pps_species *species, pps_skeleton *s) {
     double longest = 2.2 * species->growth.step;
     uint32_t *now = malloc((s->n + 1) * sizeof *now);
     if (!now) {
-        return; /* more triangles, no harm */
+        return PPS_ERR_MEMORY;
     }
     size_t kept = 0;
     for (uint32_t k = 0; k < s->n; k++) {
@@ -507,6 +507,7 @@ static void simplify(const pps_species *species, pps_skeleton *s) {
     s->n = kept;
     free(now);
     count_tips(s);
+    return PPS_OK;
 }
 
 pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
@@ -525,7 +526,7 @@ pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
     }
     if (!status) {
         set_radii(species, out);
-        simplify(species, out);
+        status = simplify(species, out);
     }
     return status;
 }
