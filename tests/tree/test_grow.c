@@ -188,7 +188,7 @@ static double distance_to_wood(const pps_mesh *mesh, const double p[3]) {
         const double *a = mesh->position[mesh->triangle[t][0]];
         const double *b = mesh->position[mesh->triangle[t][1]];
         const double *c = mesh->position[mesh->triangle[t][2]];
-        if (fabs(a[2] - p[2]) < 1) { /* no triangle is longer than that */
+        if (fabs(a[2] - p[2]) < 0.6) { /* no triangle is longer than that */
             nearest = fmin(nearest, distance_to_triangle(p, a, b, c));
         }
     }
