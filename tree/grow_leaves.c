@@ -219,22 +219,28 @@ static double hull_of(const pps_species *s, const blade *leaf, size_t n, double 
 }
 
 /* size = sqrt(index hull(size)/unit area), by iteration: the hull is that of the crown
- * and hardly knows how large a leaf is, so each round gains a digit or more. */
+ * and hardly knows how large a leaf is, so each round gains a digit or more. CONVERGENCE:
+ * leaves so large that they are the crown. */
 static pps_status solve_size(const pps_species *s, const blade *leaf, size_t n,
                              double *size) {
-    enum { ROUNDS = 5 };
+    enum { ROUNDS = 200 };
     size_t per_leaf = 1 + (size_t)s->leaves.whorl * s->leaves.n_outline;
     double(*point)[2] = malloc((n * per_leaf + 1) * sizeof *point);
     if (!point) {
         return PPS_ERR_MEMORY;
     }
-    double area = unit_area(s, leaf, n);
+    double area = unit_area(s, leaf, n), before = INFINITY;
     *size = 0.05;
-    for (int round = 0; round < ROUNDS; round++) {
-        *size = sqrt(s->leaf_area_index * hull_of(s, leaf, n, *size, point) / area);
+    for (int round = 0; round < ROUNDS && fabs(*size - before) > 1e-7 * *size;
+         round++) {
+        before = *size;
+        *size = sqrt(s->leaf_area_index * hull_of(s, leaf, n, before, point) / area);
     }
     free(point);
-    return *size > 0 ? PPS_OK : PPS_ERR_MEMORY; /* a hull of area 0: no memory for it */
+    if (!(*size > 0)) {
+        return PPS_ERR_MEMORY; /* a hull of area 0: there was none for it */
+    }
+    return fabs(*size - before) <= 1e-7 * *size ? PPS_OK : PPS_ERR_CONVERGENCE;
 }
 
 /* ---- triangles ---- */

@@ -17,7 +17,7 @@
 static const double PI = 3.14159265358979323846;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-enum { MAX_NODES = 400000, MAX_ROUNDS = 4000, SMOOTHINGS = 6 };
+enum { SMOOTHINGS = 6 };
 
 /* What a random number is for; items count within it. */
 enum { STEM = 1, FORK, LIMB, POINT, TIER, LOBE, WANDER };
@@ -35,6 +35,9 @@ static void snap(double p[3]) {
 }
 
 static pps_status add_node(pps_skeleton *s, uint32_t parent, const double at[3]) {
+    if (s->n == PPS_MOST_NODES) {
+        return PPS_ERR_ARGUMENT;
+    }
     if (s->n == s->room) {
         size_t room = s->room ? 2 * s->room : 1024;
         pps_node *node = realloc(s->node, room * sizeof *node);
@@ -45,8 +48,13 @@ static pps_status add_node(pps_skeleton *s, uint32_t parent, const double at[3])
         s->room = room;
     }
     pps_node *node = &s->node[s->n++];
-    *node = (pps_node){{at[0], at[1], at[2]}, 0, parent, PPS_NO_NODE, 0, 0};
+    *node =
+        (pps_node){{at[0], at[1], at[2]}, 0, parent, PPS_NO_NODE, PPS_NO_NODE, 0, 0};
     snap(node->at);
+    if (parent != PPS_NO_NODE) { /* while it grows, main_child is the last one */
+        node->sibling = s->node[parent].main_child;
+        s->node[parent].main_child = (uint32_t)s->n - 1;
+    }
     return PPS_OK;
 }
 
@@ -279,13 +287,12 @@ static void pull(const pps_species *species, const attractor *point, size_t n_po
  * evenly from two sides would else grow the same twig again and again. */
 static bool taken(const pps_skeleton *s, uint32_t parent, const double at[3],
                   double step) {
-    for (size_t k = s->n; k-- > parent + 1;) {
-        if (s->node[k].parent == parent) {
-            double to[3];
-            vec_sub(at, s->node[k].at, to);
-            if (vec_dot(to, to) < 0.01 * step * step) {
-                return true;
-            }
+    for (uint32_t k = s->node[parent].main_child; k != PPS_NO_NODE;
+         k = s->node[k].sibling) {
+        double to[3];
+        vec_sub(at, s->node[k].at, to);
+        if (vec_dot(to, to) < 0.01 * step * step) {
+            return true;
         }
     }
     return false;
@@ -309,7 +316,7 @@ static pps_status sprout(const pps_species *species, uint64_t seed, pps_skeleton
         to[2] += species->growth.rise;
         vec_normalize(to);
         vec_along(s->node[k].at, step, to, at);
-        if (s->node[k].n_children > 0 && taken(s, k, at, step)) {
+        if (taken(s, k, at, step)) {
             for (size_t i = 0; i < n_points; i++) {
                 point[i].alive = point[i].alive && point[i].nearest != k;
             }
@@ -319,7 +326,6 @@ static pps_status sprout(const pps_species *species, uint64_t seed, pps_skeleton
         if (status) {
             return status;
         }
-        s->node[k].n_children++;
     }
     return PPS_OK;
 }
@@ -327,7 +333,7 @@ static pps_status sprout(const pps_species *species, uint64_t seed, pps_skeleton
 static pps_status colonise(const pps_species *species, uint64_t seed, double kill,
                            attractor *point, size_t n_points, pps_skeleton *s) {
     size_t met = 0;
-    for (int round = 0; round < MAX_ROUNDS && s->n < MAX_NODES; round++) {
+    for (;;) {
         meet(point, n_points, s, met);
         met = s->n;
         for (size_t i = 0; i < n_points; i++) {
@@ -344,7 +350,6 @@ static pps_status colonise(const pps_species *species, uint64_t seed, double kil
             return status;
         }
     }
-    return PPS_OK;
 }
 
 /* Limbs first, towards a few points; then twigs from them towards many. */

@@ -377,11 +377,13 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         {"", "leaf_area_index", NULL, "/leaf_area_index is missing"},
         {"", "colour", "1", "/colour is not a member of a species"},
         {"growth", "step", "0", "/growth/step: 0 is not a number from 0.02 to 2"},
+        {"growth", "step", "0.4", "/growth/step must not be above /growth/kill"},
         {"growth", "stop", "0", "/growth/stop is not a member"},
         {"wood", "sides", "2", "/wood/sides: 2 is not a whole number from 3 to 64"},
         {"wood", "color", "[1, 2, 0]", "/wood/color is not three numbers"},
-        {"wood", "twig_radius", "0.5", "/wood/twig_radius must be below"},
-        {"leaves", "wood_below", "0.0029", "/wood/twig_radius must be below /leaves"},
+        {"wood", "twig_radius", "0.5", "/wood/twig_radius must not be above"},
+        {"leaves", "wood_below", "0.0029",
+         "/wood/twig_radius must not be above /leaves"},
         {"leaves", "cluster", "1.5", "/leaves/cluster: 1.5 is not a whole number"},
         {"leaves", "outline", "[[-1, 1], [1, 1]]", "/leaves/outline/1 does not lie"},
         {"leaves", "outline", "[[1, 1]]", "/leaves/outline is not a list of 2 to 60"},
@@ -389,7 +391,7 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         {"leaves", "transmittance", "[0.9, 0, 0]", "/leaves/transmittance/0: with the"},
         {"crown", "profile", "[[2, 1], [1, 1]]", "/crown/profile/1: heights"},
         {"crown", "profile", "[[2, 0], [3, 1]]", "/crown/profile/0: heights"},
-        {"tiers", "least_radius", "3", "/tiers/least_radius must be"},
+        {"tiers", "least_radius", "3", "/tiers/least_radius must not be"},
     };
     char path[] = "/tmp/ppscat_species_XXXXXX.json";
     int fd = mkstemps(path, 5);
@@ -406,6 +408,28 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         }
         assert_non_null(strstr(problem.text, path));
     }
+    remove(path);
+}
+
+/* One flower, whatever its size, covers itself about once. */
+static void a_leaf_area_index_out_of_reach_is_refused(void **state) {
+    (void)state;
+    char path[] = "/tmp/ppscat_species_XXXXXX.json", text[32];
+    int fd = mkstemps(path, 5);
+    assert_true(fd >= 0);
+    close(fd);
+    pps_mesh *mesh = grow("cherry", 1);
+    size_t wood = 0;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        wood += mesh->leaf_of[t] == PPS_NO_LEAF;
+    }
+    pps_mesh_free(mesh);
+    pps_problem problem = {""};
+    snprintf(text, sizeof text, "%zu", wood + 5);
+    write_changed("", "triangles", text, path);
+    assert_int_equal(pps_species_grow(path, 1, &mesh, &problem), PPS_ERR_FORMAT);
+    assert_null(mesh);
+    assert_non_null(strstr(problem.text, "/leaf_area_index: with so few leaves 2.6"));
     remove(path);
 }
 
@@ -454,6 +478,7 @@ int main(void) {
         cmocka_unit_test(materials_tell_leaves_from_wood),
         cmocka_unit_test(optics_are_those_of_the_species),
         cmocka_unit_test(bad_values_are_refused_with_their_pointer),
+        cmocka_unit_test(a_leaf_area_index_out_of_reach_is_refused),
         cmocka_unit_test(files_that_are_no_species_are_refused),
         cmocka_unit_test(a_species_file_grows_like_the_built_in_one),
     };
