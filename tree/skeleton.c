@@ -471,6 +471,31 @@ static void set_radii(const pps_species *species, pps_skeleton *s) {
     }
 }
 
+/* Wood narrows towards a fork and not at one blow beyond it. */
+static pps_status smooth_radii(pps_skeleton *s) {
+    double *smoothed = malloc((s->n + 1) * sizeof *smoothed);
+    if (!smoothed) {
+        return PPS_ERR_MEMORY;
+    }
+    for (int round = 0; round < SMOOTHINGS; round++) {
+        for (size_t k = 0; k < s->n; k++) {
+            const pps_node *node = &s->node[k];
+            smoothed[k] = node->radius;
+            if (node->parent != PPS_NO_NODE && node->main_child != PPS_NO_NODE) {
+                const pps_node *before = &s->node[node->parent];
+                double from = before->main_child == k ? before->radius : node->radius;
+                smoothed[k] =
+                    node->radius / 2 + (from + s->node[node->main_child].radius) / 4;
+            }
+        }
+        for (size_t k = 0; k < s->n; k++) {
+            s->node[k].radius = smoothed[k];
+        }
+    }
+    free(smoothed);
+    return PPS_OK;
+}
+
 /* How far the node is from the line between two others. */
 static double off_line(const double p[3], const double a[3], const double b[3]) {
     double along[3], to[3], across[3];
@@ -531,7 +556,8 @@ pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
     }
     if (!status) {
         set_radii(species, out);
-        status = simplify(species, out);
+        status = smooth_radii(out);
+        status = status ? status : simplify(species, out);
     }
     return status;
 }
