@@ -2,7 +2,7 @@
  * asked for leave room for.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,12 +21,14 @@ static char *copy_string(const char *s) {
     return copy ? memcpy(copy, s, size) : NULL;
 }
 
-/* A texture for a material, if it could be made. */
-static void add_texture(pps_mesh *mesh, pps_material *material, pps_texture texture) {
-    if (texture.rgba) {
-        material->texture = (int)mesh->n_textures;
-        mesh->texture[mesh->n_textures++] = texture;
+static pps_status add_texture(pps_mesh *mesh, pps_material *material,
+                              pps_texture texture) {
+    if (!texture.rgba) {
+        return PPS_ERR_MEMORY;
     }
+    material->texture = (int)mesh->n_textures;
+    mesh->texture[mesh->n_textures++] = texture;
+    return PPS_OK;
 }
 
 /* The colour of leaves is that of white light on both sides. */
@@ -44,31 +46,26 @@ static pps_status add_materials(const pps_species *s, uint64_t seed, pps_mesh *m
         leaf->color[i] = s->leaves.reflectance[i] + s->leaves.transmittance[i];
         wood->color[i] = s->wood.color[i];
     }
-    if (s->leaves.heart > 0) {
-        add_texture(mesh, leaf, pps_grow_petal(s));
+    pps_status status = leaf->name && wood->name ? PPS_OK : PPS_ERR_MEMORY;
+    if (!status && s->leaves.heart > 0) {
+        status = add_texture(mesh, leaf, pps_grow_petal(s));
     }
-    if (s->wood.lenticels > 0) {
-        add_texture(mesh, wood, pps_grow_bark(s, seed));
+    if (!status && s->wood.lenticels > 0) {
+        status = add_texture(mesh, wood, pps_grow_bark(s, seed));
     }
-    return leaf->name && wood->name ? PPS_OK : PPS_ERR_MEMORY;
+    return status;
 }
 
-static pps_status too_much_wood(const char *name, const pps_species *s, size_t wood,
-                                pps_problem *problem) {
+/* What a species asks for that cannot be: the member, and why. */
+__attribute__((format(printf, 3, 4))) static pps_status
+refuse(const char *name, pps_problem *problem, const char *format, ...) {
     if (problem) {
-        snprintf(
-            problem->text, sizeof problem->text,
-            "%.100s: /triangles: wood alone has %zu of the %.0f triangles; ask for "
-            "more, or for fewer /crown/points",
-            name, wood, s->triangles);
-    }
-    return PPS_ERR_FORMAT;
-}
-
-static pps_status no_place_for_leaves(const char *name, pps_problem *problem) {
-    if (problem) {
-        snprintf(problem->text, sizeof problem->text,
-                 "%.100s: /leaves/wood_below: no wood is that thin", name);
+        char why[300];
+        va_list args;
+        va_start(args, format);
+        vsnprintf(why, sizeof why, format, args);
+        va_end(args);
+        snprintf(problem->text, sizeof problem->text, "%.100s: %s", name, why);
     }
     return PPS_ERR_FORMAT;
 }
@@ -84,12 +81,21 @@ static pps_status build(const char *name, const pps_species *s, uint64_t seed,
     size_t wanted = (size_t)s->triangles, wood = mesh->n_triangles;
     size_t each = pps_leaf_triangles(s);
     if (wood + each > wanted) {
-        return too_much_wood(name, s, wood, problem);
+        return refuse(name, problem,
+                      "/triangles: wood alone has %zu of the %.0f triangles; ask for "
+                      "more, or for fewer /crown/points",
+                      wood, s->triangles);
     }
     size_t n = (wanted - wood + each / 2) / each;
     pps_status status = pps_leaves_build(s, seed, skeleton, n, LEAF, &b);
     if (status == PPS_ERR_ARGUMENT) {
-        return no_place_for_leaves(name, problem);
+        return refuse(name, problem, "/leaves/wood_below: no wood is that thin");
+    }
+    if (status == PPS_ERR_CONVERGENCE) {
+        return refuse(name, problem,
+                      "/leaf_area_index: with so few leaves %g cannot be reached; ask "
+                      "for less, or for more /triangles",
+                      s->leaf_area_index);
     }
     status = status ? status : add_materials(s, seed, mesh);
     return status ? status : pps_mesh_finish(mesh);
@@ -107,6 +113,13 @@ pps_status pps_species_grow(const char *name, uint64_t seed, pps_mesh **out,
     pps_mesh *mesh = calloc(1, sizeof *mesh);
     status = pps_skeleton_grow(&species, seed, &skeleton);
     status = !mesh ? PPS_ERR_MEMORY : status;
+    if (status == PPS_ERR_ARGUMENT) {
+        status =
+            refuse(name, problem,
+                   "/growth/step: the crown takes more than %d steps of wood; make "
+                   "it longer, or the crown smaller",
+                   PPS_MOST_NODES);
+    }
     if (!status) {
         status = build(name, &species, seed, &skeleton, mesh, problem);
     }

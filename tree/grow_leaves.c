@@ -16,6 +16,7 @@ static const double PI = 3.14159265358979323846;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
 static const double TIP_WEIGHT = 2;
+static const double BARE = 0.05; /* of a twig, where it leaves thicker wood; metres */
 
 /* Events of the leaves' random numbers; the skeleton's items are above 2^40. */
 enum { SITE = 1 << 8, FRAME = 2 << 8, TILT = 3 << 8 };
@@ -51,17 +52,31 @@ static void place(const blade *leaf, double size, const double own[3], double ou
 
 /* ---- sites ---- */
 
-/* How much of the wood up to each node bears leaves, metres; the last stretch of a twig
- * bears more of them. */
+/* The length of the wood that ends in node k and bears leaves: its end, where it comes out
+ * of thicker wood. */
+static double leafy_length(const pps_species *s, const pps_skeleton *skeleton,
+                           size_t k) {
+    const pps_node *node = &skeleton->node[k];
+    if (node->parent == PPS_NO_NODE || node->radius >= s->leaves.wood_below) {
+        return 0;
+    }
+    const pps_node *parent = &skeleton->node[node->parent];
+    double along[3];
+    vec_sub(node->at, parent->at, along);
+    bool thick = parent->radius >= s->leaves.wood_below;
+    return fmax(0, vec_length(along) - (thick ? parent->radius + BARE : 0));
+}
+
+/* The last stretch of a twig bears more leaves than the rest. */
+static double weight(const pps_skeleton *skeleton, size_t k) {
+    return skeleton->node[k].n_children == 0 ? TIP_WEIGHT : 1;
+}
+
+/* The weighted length that bears leaves, of all nodes up to each. */
 static double *leafy_lengths(const pps_species *s, const pps_skeleton *skeleton) {
     double *sum = malloc((skeleton->n + 1) * sizeof *sum), total = 0;
     for (size_t k = 0; sum && k < skeleton->n; k++) {
-        const pps_node *node = &skeleton->node[k];
-        if (node->parent != PPS_NO_NODE && node->radius < s->leaves.wood_below) {
-            double along[3];
-            vec_sub(node->at, skeleton->node[node->parent].at, along);
-            total += (node->n_children == 0 ? TIP_WEIGHT : 1) * vec_length(along);
-        }
+        total += weight(skeleton, k) * leafy_length(s, skeleton, k);
         sum[k] = total;
     }
     return sum;
@@ -94,9 +109,8 @@ static site pick_site(uint64_t seed, const pps_skeleton *skeleton, const double 
     const pps_node *node = &skeleton->node[k];
     site s = {.radius = node->radius};
     vec_sub(node->at, skeleton->node[node->parent].at, s.along);
-    double back = (sum[k] - where) / (sum[k] - (k ? sum[k - 1] : 0));
-    vec_along(node->at, -back, s.along, s.at);
     vec_normalize(s.along);
+    vec_along(node->at, -(sum[k] - where) / weight(skeleton, k), s.along, s.at);
     return s;
 }
 
@@ -219,22 +233,28 @@ static double hull_of(const pps_species *s, const blade *leaf, size_t n, double 
 }
 
 /* size = sqrt(index hull(size)/unit area), by iteration: the hull is that of the crown
- * and hardly knows how large a leaf is, so each round gains a digit or more. */
+ * and hardly knows how large a leaf is, so each round gains a digit or more. CONVERGENCE:
+ * leaves so large that they are the crown. */
 static pps_status solve_size(const pps_species *s, const blade *leaf, size_t n,
                              double *size) {
-    enum { ROUNDS = 5 };
+    enum { ROUNDS = 200 };
     size_t per_leaf = 1 + (size_t)s->leaves.whorl * s->leaves.n_outline;
     double(*point)[2] = malloc((n * per_leaf + 1) * sizeof *point);
     if (!point) {
         return PPS_ERR_MEMORY;
     }
-    double area = unit_area(s, leaf, n);
+    double area = unit_area(s, leaf, n), before = INFINITY;
     *size = 0.05;
-    for (int round = 0; round < ROUNDS; round++) {
-        *size = sqrt(s->leaf_area_index * hull_of(s, leaf, n, *size, point) / area);
+    for (int round = 0; round < ROUNDS && fabs(*size - before) > 1e-7 * *size;
+         round++) {
+        before = *size;
+        *size = sqrt(s->leaf_area_index * hull_of(s, leaf, n, before, point) / area);
     }
     free(point);
-    return PPS_OK;
+    if (!(*size > 0)) {
+        return PPS_ERR_MEMORY; /* a hull of area 0: there was none for it */
+    }
+    return fabs(*size - before) <= 1e-7 * *size ? PPS_OK : PPS_ERR_CONVERGENCE;
 }
 
 /* ---- triangles ---- */

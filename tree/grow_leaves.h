@@ -11,7 +11,8 @@
 size_t pps_leaf_triangles(const pps_species *species);
 
 /* Adds n leaves whose size gives the species' leaf-area index over the hull of what is
- * added. MEMORY; ARGUMENT: no wood is thin enough to bear leaves. */
+ * added. MEMORY; ARGUMENT: no wood is thin enough to bear leaves; CONVERGENCE: no size
+ * gives that index. */
 pps_status pps_leaves_build(const pps_species *species, uint64_t seed,
                             const pps_skeleton *skeleton, size_t n, uint32_t material,
                             pps_builder *b);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/hull.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,13 +26,14 @@ static size_t sieve(size_t n, double (*point)[2]) {
                                      {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
     double far[8][2];
     for (int k = 0; k < 8; k++) {
-        size_t best = 0;
-        for (size_t i = 1; i < n; i++) {
+        double most = -INFINITY;
+        for (size_t i = 0; i < n; i++) {
             double there = way[k][0] * point[i][0] + way[k][1] * point[i][1];
-            double most = way[k][0] * point[best][0] + way[k][1] * point[best][1];
-            best = there > most ? i : best;
+            if (there > most) {
+                most = there;
+                memcpy(far[k], point[i], sizeof far[k]);
+            }
         }
-        memcpy(far[k], point[best], sizeof far[k]);
     }
     size_t kept = 0;
     for (size_t i = 0; i < n; i++) {

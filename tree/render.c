@@ -89,12 +89,7 @@ static pps_status dress_up(const pps_mesh *mesh, dress *out) {
         }
     }
     for (size_t m = 0; m < mesh->n_materials; m++) {
-        int t = mesh->uv ? mesh->material[m].texture : -1;
-        out->mean[m][0] = out->mean[m][1] = out->mean[m][2] = 1;
-        if (t >= 0) {
-            pps_texture_mean(&mesh->texture[t], out->linear[t],
-                             mesh->material[m].alpha_min, out->mean[m]);
-        }
+        pps_texture_mean(mesh, &mesh->material[m], out->mean[m]);
     }
     return smooth_normals(mesh, out->normal);
 }

@@ -7,11 +7,13 @@
 #include "tree/species.h"
 
 #define PPS_NO_NODE UINT32_MAX
+enum { PPS_MOST_NODES = 200000 };
 
 /* Parents come before their children; a stem's foot has none. */
 typedef struct pps_node {
     double at[3], radius;
     uint32_t parent, main_child; /* the child that goes on; PPS_NO_NODE: a tip */
+    uint32_t sibling;            /* the child before it of the same parent */
     uint32_t n_children, tips;   /* tips at or beyond it */
 } pps_node;
 
@@ -20,7 +22,7 @@ typedef struct pps_skeleton {
     pps_node *node;
 } pps_skeleton;
 
-/* Grown for a species and a seed. MEMORY. Free node after use, whatever the status. */
+/* Grown for a species and a seed. MEMORY; ARGUMENT: more wood than this can be. Free node after use, whatever the status. */
 pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
                              pps_skeleton *out);
 

@@ -177,6 +177,7 @@ static pps_status check_pairs_of_numbers(const reader *r, const pps_species *s) 
         const char *low, *high;
         bool good;
     } order[] = {
+        {"/growth/step", "/growth/kill", s->growth.step <= s->growth.kill},
         {"/tiers/least_radius", "/tiers/most_radius",
          s->tiers.radius[0] <= s->tiers.radius[1]},
         {"/leaves/least_forward", "/leaves/most_forward",
@@ -184,13 +185,13 @@ static pps_status check_pairs_of_numbers(const reader *r, const pps_species *s) 
         {"/leaves/least_stalk", "/leaves/most_stalk",
          s->leaves.stalk[0] <= s->leaves.stalk[1]},
         {"/wood/twig_radius", "/wood/trunk_radius",
-         s->wood.twig_radius < s->wood.trunk_radius},
+         s->wood.twig_radius <= s->wood.trunk_radius},
         {"/wood/twig_radius", "/leaves/wood_below",
-         s->wood.twig_radius < s->leaves.wood_below},
+         s->wood.twig_radius <= s->leaves.wood_below},
     };
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
         if (!order[i].good) {
-            return refuse(r, "%s must be below %s", order[i].low, order[i].high);
+            return refuse(r, "%s must not be above %s", order[i].low, order[i].high);
         }
     }
     for (int i = 0; i < 3; i++) {

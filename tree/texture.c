@@ -8,34 +8,44 @@
 
 #include "tree/srgb.h"
 
+static void decode_bytes(double light[256]) {
+    for (int i = 0; i < 256; i++) {
+        light[i] = srgb_decode(i / 255.0);
+    }
+}
+
 float *pps_texture_linear(const pps_texture *texture) {
     size_t n = (size_t)texture->width * (size_t)texture->height;
-    float *rgb = malloc((3 * n + 1) * sizeof *rgb), light[256];
-    for (int i = 0; i < 256; i++) {
-        light[i] = (float)srgb_decode(i / 255.0);
-    }
+    float *rgb = malloc((3 * n + 1) * sizeof *rgb);
+    double light[256];
+    decode_bytes(light);
     for (size_t i = 0; rgb && i < n; i++) {
         for (size_t c = 0; c < 3; c++) {
-            rgb[3 * i + c] = light[texture->rgba[4 * i + c]];
+            rgb[3 * i + c] = (float)light[texture->rgba[4 * i + c]];
         }
     }
     return rgb;
 }
 
-void pps_texture_mean(const pps_texture *texture, const float *linear, double alpha_min,
+void pps_texture_mean(const pps_mesh *mesh, const pps_material *material,
                       double rgb[3]) {
-    double n = 0;
-    rgb[0] = rgb[1] = rgb[2] = 0;
-    for (size_t i = 0; i < (size_t)texture->width * (size_t)texture->height; i++) {
-        if (texture->rgba[4 * i + 3] / 255.0 >= alpha_min) {
+    double light[256], sum[3] = {0, 0, 0}, n = 0;
+    rgb[0] = rgb[1] = rgb[2] = 1;
+    if (!mesh->uv || material->texture < 0) {
+        return;
+    }
+    const pps_texture *t = &mesh->texture[material->texture];
+    decode_bytes(light);
+    for (size_t i = 0; i < (size_t)t->width * (size_t)t->height; i++) {
+        if (t->rgba[4 * i + 3] / 255.0 >= material->alpha_min) {
             for (size_t c = 0; c < 3; c++) {
-                rgb[c] += (double)linear[3 * i + c];
+                sum[c] += light[t->rgba[4 * i + c]];
             }
             n++;
         }
     }
-    for (int c = 0; c < 3; c++) {
-        rgb[c] = n > 0 ? rgb[c] / n : 0;
+    for (int c = 0; c < 3 && n > 0; c++) {
+        rgb[c] = sum[c] / n;
     }
 }
 

@@ -9,8 +9,9 @@
 /* A texture's colours in linear light, rgb[3 * (y * width + x)]; NULL: no memory. */
 float *pps_texture_linear(const pps_texture *texture);
 
-/* Their mean over the texels that are there (alpha >= alpha_min). */
-void pps_texture_mean(const pps_texture *texture, const float *linear, double alpha_min,
+/* The mean of a material's texture over the texels that are there (alpha >= alpha_min);
+ * white where it has none. */
+void pps_texture_mean(const pps_mesh *mesh, const pps_material *material,
                       double rgb[3]);
 
 /* At (u, v), v up: between texels in proportion, repeated with period 1. */

@@ -106,12 +106,12 @@ static void a_seed_is_the_same_plant_everywhere(void **state) {
         size_t n_vertices, vertex;
         double at[3];
     } want[] = {
-        {"cherry", 118326, 2958, {1.9005893, -1.5827082, 2.8760089}},
-        {"cherry", 118326, 59163, {-1.3511081, -0.2499497, 4.2133769}},
-        {"cherry", 118326, 118325, {-2.6308388, 0.7394436, 2.1601681}},
-        {"maple", 250864, 6271, {0.8178876, 0.4284600, 2.8775255}},
-        {"maple", 250864, 125432, {0.3022110, 0.9931424, 3.7316670}},
-        {"maple", 250864, 250863, {1.9493876, 1.0710603, 2.2784571}},
+        {"cherry", 118339, 2958, {0.4048457, 0.2063420, 3.1184109}},
+        {"cherry", 118339, 59169, {1.3960720, 0.1633756, 5.1239081}},
+        {"cherry", 118339, 118338, {-2.6515704, 0.5823395, 2.2928005}},
+        {"maple", 250889, 6272, {0.8412331, 0.6479952, 2.8346803}},
+        {"maple", 250889, 125444, {-0.1502238, -0.5799216, 3.3383123}},
+        {"maple", 250889, 250888, {1.9473783, 1.0665600, 2.2598821}},
     };
     pps_mesh *mesh = NULL;
     for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
@@ -188,7 +188,7 @@ static double distance_to_wood(const pps_mesh *mesh, const double p[3]) {
         const double *a = mesh->position[mesh->triangle[t][0]];
         const double *b = mesh->position[mesh->triangle[t][1]];
         const double *c = mesh->position[mesh->triangle[t][2]];
-        if (fabs(a[2] - p[2]) < 1) { /* no triangle is longer than that */
+        if (fabs(a[2] - p[2]) < 0.6) { /* no triangle is longer than that */
             nearest = fmin(nearest, distance_to_triangle(p, a, b, c));
         }
     }
@@ -377,11 +377,13 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         {"", "leaf_area_index", NULL, "/leaf_area_index is missing"},
         {"", "colour", "1", "/colour is not a member of a species"},
         {"growth", "step", "0", "/growth/step: 0 is not a number from 0.02 to 2"},
+        {"growth", "step", "0.4", "/growth/step must not be above /growth/kill"},
         {"growth", "stop", "0", "/growth/stop is not a member"},
         {"wood", "sides", "2", "/wood/sides: 2 is not a whole number from 3 to 64"},
         {"wood", "color", "[1, 2, 0]", "/wood/color is not three numbers"},
-        {"wood", "twig_radius", "0.5", "/wood/twig_radius must be below"},
-        {"leaves", "wood_below", "0.0029", "/wood/twig_radius must be below /leaves"},
+        {"wood", "twig_radius", "0.5", "/wood/twig_radius must not be above"},
+        {"leaves", "wood_below", "0.0029",
+         "/wood/twig_radius must not be above /leaves"},
         {"leaves", "cluster", "1.5", "/leaves/cluster: 1.5 is not a whole number"},
         {"leaves", "outline", "[[-1, 1], [1, 1]]", "/leaves/outline/1 does not lie"},
         {"leaves", "outline", "[[1, 1]]", "/leaves/outline is not a list of 2 to 60"},
@@ -389,7 +391,7 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         {"leaves", "transmittance", "[0.9, 0, 0]", "/leaves/transmittance/0: with the"},
         {"crown", "profile", "[[2, 1], [1, 1]]", "/crown/profile/1: heights"},
         {"crown", "profile", "[[2, 0], [3, 1]]", "/crown/profile/0: heights"},
-        {"tiers", "least_radius", "3", "/tiers/least_radius must be"},
+        {"tiers", "least_radius", "3", "/tiers/least_radius must not be"},
     };
     char path[] = "/tmp/ppscat_species_XXXXXX.json";
     int fd = mkstemps(path, 5);
@@ -406,6 +408,28 @@ static void bad_values_are_refused_with_their_pointer(void **state) {
         }
         assert_non_null(strstr(problem.text, path));
     }
+    remove(path);
+}
+
+/* One flower, whatever its size, covers itself about once. */
+static void a_leaf_area_index_out_of_reach_is_refused(void **state) {
+    (void)state;
+    char path[] = "/tmp/ppscat_species_XXXXXX.json", text[32];
+    int fd = mkstemps(path, 5);
+    assert_true(fd >= 0);
+    close(fd);
+    pps_mesh *mesh = grow("cherry", 1);
+    size_t wood = 0;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        wood += mesh->leaf_of[t] == PPS_NO_LEAF;
+    }
+    pps_mesh_free(mesh);
+    pps_problem problem = {""};
+    snprintf(text, sizeof text, "%zu", wood + 5);
+    write_changed("", "triangles", text, path);
+    assert_int_equal(pps_species_grow(path, 1, &mesh, &problem), PPS_ERR_FORMAT);
+    assert_null(mesh);
+    assert_non_null(strstr(problem.text, "/leaf_area_index: with so few leaves 2.6"));
     remove(path);
 }
 
@@ -454,6 +478,7 @@ int main(void) {
         cmocka_unit_test(materials_tell_leaves_from_wood),
         cmocka_unit_test(optics_are_those_of_the_species),
         cmocka_unit_test(bad_values_are_refused_with_their_pointer),
+        cmocka_unit_test(a_leaf_area_index_out_of_reach_is_refused),
         cmocka_unit_test(files_that_are_no_species_are_refused),
         cmocka_unit_test(a_species_file_grows_like_the_built_in_one),
     };
