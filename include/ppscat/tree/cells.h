@@ -28,9 +28,7 @@ typedef struct pps_cells_options {
                     divides the periods */
     int samples; /* points a leaf that depths are averaged over; 0: 4 */
     uint64_t seed;
-    int threads;     /* 0: all cores; never changes the answer */
-    int most_points; /* of a cell, for depths and visibilities towards the directions (a
-                        forest has many leaves a cell); 0: 64. The sun's use them all */
+    int threads; /* 0: all cores; never changes the answer */
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
