@@ -48,8 +48,7 @@ static bool wants(const gatherer *g, const place *at, unsigned direct) {
 static void add_sun(const gatherer *g, const place *at, double *irradiance) {
     const pps_sun *sun = &g->scene->sun;
     double cosine = at->side * vec_dot(at->normal, sun->to);
-    bool set = g->scene->ground.present &&
-               (sun->to[2] <= 0 || at->point[2] < g->scene->ground.height);
+    bool set = g->scene->ground.present && sun->to[2] <= 0;
     if (cosine <= 0 || set || !wants(g, at, PPS_SUN)) {
         return;
     }
@@ -122,6 +121,9 @@ static void gather_path(const gatherer *g, size_t leaf, int face, uint64_t item,
     memcpy(at.point, start.point, sizeof at.point);
     memcpy(at.normal, start.normal, sizeof at.normal);
     memset(irradiance, 0, PPS_BANDS_MAX * sizeof *irradiance);
+    if (g->scene->ground.present && at.point[2] < g->scene->ground.height) {
+        return; /* buried; no path from above gets there */
+    }
     pps_uniforms r;
     uint64_t event = 0;
     do {

@@ -30,7 +30,8 @@ typedef struct pps_hit {
 } pps_hit;
 
 /* The scene must be indexed, outlive the rays, and keep its instances and meshes; sun,
- * sky, ground and optics may change. MEMORY; UNSUPPORTED: Embree will not run here. */
+ * sky, ground and optics may change. MEMORY; ARGUMENT: no index, or over a million copies of
+ * instances reach into one period; UNSUPPORTED: Embree will not run here. */
 pps_status pps_rays_create(const pps_scene *scene, pps_rays **out);
 void pps_rays_free(pps_rays *rays); /* NULL is fine */
 

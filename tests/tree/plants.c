@@ -92,12 +92,15 @@ pps_scene *layer_scene(double leaf_area_index, uint32_t n, uint64_t seed) {
 }
 
 pps_scene *three_bands(bool periodic, bool ground) {
-    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 3, 1000, 4);
+    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 3, 500, 4);
     pps_mesh *mesh = scene->prototype[0].mesh;
     for (size_t i = 0; i < 40; i++) { /* some of the leaves become wood */
         mesh->leaf_of[mesh->n_triangles - 1 - i] = PPS_NO_LEAF;
     }
     mesh->n_leaves -= 20;
+    scene->instance = realloc(scene->instance, 2 * sizeof *scene->instance);
+    scene->n_instances = 2;
+    scene->instance[1] = (pps_instance){0, {0.9, 0.4, 0.3}, 50, 0.7};
     scene->n_bands = 3;
     pps_leaf_optics *o = &scene->prototype[0].optics;
     const double r[3] = {0.1, 0.5, 0.3}, t[3] = {0.05, 0.1, 0.6};

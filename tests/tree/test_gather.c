@@ -40,6 +40,27 @@ static void a_leaf_alone_sees_sun_sky_and_ground(void **state) {
     pps_scene_free(scene);
 }
 
+/* One leaf above a black ground, the other under it. */
+static void what_is_buried_is_dark(void **state) {
+    (void)state;
+    square at[] = {{0, 0, 1, LEAF}, {0, 0, -1, LEAF}};
+    pps_scene *scene = scene_of(squares(2, at));
+    scene->sky = (pps_sky){{1}, {1}, {1}};
+    scene->ground = (pps_ground){true, 0, {0}};
+    pps_irradiance *e = gather(scene, 100, (pps_trace_options){.seed = 1}), *traced;
+    assert_int_equal(pps_trace_light(scene, NULL, &traced, NULL), PPS_OK);
+    for (int leaf = 0; leaf < 2; leaf++) {
+        bool buried = e->front[leaf] == 0;
+        assert_true((traced->front[leaf] == 0) == buried);
+        assert_true(traced->back[leaf] == 0 && e->back[leaf] == 0);
+        assert_close(e->front[leaf], buried ? 0 : 1 + PI, 1e-14, 0);
+    }
+    assert_true((e->front[0] == 0) != (e->front[1] == 0));
+    pps_irradiance_free(traced);
+    pps_irradiance_free(e);
+    pps_scene_free(scene);
+}
+
 typedef struct {
     double chi2, mean_off, mean_error; /* mean over faces of the difference */
 } comparison;
@@ -47,17 +68,18 @@ typedef struct {
 static comparison compare(const pps_scene *scene, const pps_irradiance *a,
                           const pps_irradiance *b) {
     comparison c = {0, 0, 0};
-    size_t n = scene->n_leaves * (size_t)scene->n_bands;
-    for (size_t i = 0; i < 2 * n; i++) {
-        size_t k = i % n;
-        double x = i < n ? a->front[k] : a->back[k],
-               y = i < n ? b->front[k] : b->back[k];
-        double ex = i < n ? a->front_error[k] : a->back_error[k],
-               ey = i < n ? b->front_error[k] : b->back_error[k];
-        double variance = ex * ex + ey * ey;
-        c.chi2 += (x - y) * (x - y) / variance / (double)(2 * n);
-        c.mean_off += (x - y) / (double)(2 * n);
-        c.mean_error += variance / (double)(2 * n) / (double)(2 * n);
+    size_t half = scene->n_leaves * (size_t)scene->n_bands;
+    double n = 2 * (double)half;
+    for (size_t i = 0; i < 2 * half; i++) {
+        bool front = i < half;
+        size_t k = front ? i : i - half;
+        double off = front ? a->front[k] - b->front[k] : a->back[k] - b->back[k];
+        double error = front ? hypot(a->front_error[k], b->front_error[k])
+                             : hypot(a->back_error[k], b->back_error[k]);
+        assert_true(error > 0);
+        c.chi2 += off / error * (off / error) / n;
+        c.mean_off += off / n;
+        c.mean_error += error / n * (error / n);
     }
     c.mean_error = sqrt(c.mean_error);
     return c;
@@ -69,8 +91,8 @@ static void tracing_and_gathering_agree(void **state) {
     (void)state;
     for (int kind = 0; kind < 4; kind++) {
         pps_scene *scene = three_bands(kind & 1, kind & 2);
-        pps_trace_options options = {.rays = 1000000, .seed = 21};
-        pps_irradiance *traced, *gathered = gather(scene, 150, options);
+        pps_trace_options options = {.rays = 600000, .seed = 21};
+        pps_irradiance *traced, *gathered = gather(scene, 120, options);
         assert_int_equal(pps_trace_light(scene, &options, &traced, NULL), PPS_OK);
         comparison c = compare(scene, traced, gathered);
         assert_close(c.chi2, 1, 0.1, 0);
@@ -89,7 +111,7 @@ static void they_agree_source_by_source(void **state) {
     pps_scene *scene = three_bands(false, true);
     for (unsigned source = 1; source < PPS_ALL_LIGHT; source *= 2) {
         pps_trace_options options = {
-            .rays = 300000, .seed = source, .sources = source, .bounces = 2};
+            .rays = 200000, .seed = source, .sources = source, .bounces = 2};
         pps_irradiance *traced, *gathered = gather(scene, 60, options);
         assert_int_equal(pps_trace_light(scene, &options, &traced, NULL), PPS_OK);
         double a = 0, b = 0, variance = 0;
@@ -156,6 +178,7 @@ static void work_can_be_stopped(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_leaf_alone_sees_sun_sky_and_ground),
+        cmocka_unit_test(what_is_buried_is_dark),
         cmocka_unit_test(tracing_and_gathering_agree),
         cmocka_unit_test(they_agree_source_by_source),
         cmocka_unit_test(only_leaves_asked_for_are_gathered),

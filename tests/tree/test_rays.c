@@ -247,8 +247,8 @@ static void a_repeating_scene_is_many_copies(void **state) {
     many->instance = realloc(many->instance, N * N * sizeof *many->instance);
     many->n_instances = N * N;
     for (int i = 0; i < N * N; i++) {
-        many->instance[i] = (pps_instance){
-            0, {5 + 1.7 * (i % N - REACH), -3 + 2.9 * (i / N - REACH), 2}, 30, 1};
+        int x = i % N - REACH, y = i / N - REACH;
+        many->instance[i] = (pps_instance){0, {5 + 1.7 * x, -3 + 2.9 * y, 2}, 30, 1};
     }
     assert_int_equal(pps_scene_index(many), PPS_OK);
     pps_rays *all = make_rays(many);
@@ -309,12 +309,17 @@ static void walls_leak_nothing(void **state) {
     pps_scene_free(scene);
 }
 
-static void a_scene_without_index_is_refused(void **state) {
+static void scenes_that_cannot_be_are_refused(void **state) {
     (void)state;
     pps_scene bare = {0};
     pps_rays *rays = (pps_rays *)&bare;
     assert_int_equal(pps_rays_create(&bare, &rays), PPS_ERR_ARGUMENT);
     assert_null(rays);
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 1, 50, 1);
+    scene->period[0] = scene->period[1] = 1e-4; /* 10^8 copies */
+    assert_int_equal(pps_rays_create(scene, &rays), PPS_ERR_ARGUMENT);
+    assert_null(rays);
+    pps_scene_free(scene);
     pps_rays_free(NULL);
 }
 
@@ -356,7 +361,7 @@ int main(void) {
         cmocka_unit_test(lines_that_leave_a_surface_do_not_meet_it),
         cmocka_unit_test(a_repeating_scene_is_many_copies),
         cmocka_unit_test(walls_leak_nothing),
-        cmocka_unit_test(a_scene_without_index_is_refused),
+        cmocka_unit_test(scenes_that_cannot_be_are_refused),
         cmocka_unit_test(the_ball_holds_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -210,9 +210,9 @@ static void white_leaves_over_white_ground_keep_nothing(void **state) {
     scene->ground = (pps_ground){true, -0.1, {1}};
     pps_energy e;
     pps_irradiance_free(
-        trace(scene, (pps_trace_options){.rays = 100000, .seed = 9}, &e));
+        trace(scene, (pps_trace_options){.rays = 30000, .seed = 9}, &e));
     assert_balance(&e, 1);
-    assert_close(e.escaped[0], 1, 1e-3, 0);
+    assert_close(e.escaped[0], 1, 3e-3, 0);
     assert_close(e.leaves[0] + e.ground[0], 0, 0, 1e-14);
     pps_scene_free(scene);
 }
@@ -263,7 +263,7 @@ static void standard_errors_hold(void **state) {
            *claimed = calloc(n, sizeof *claimed);
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         pps_irradiance *e =
-            trace(scene, (pps_trace_options){.rays = 100000, .seed = seed}, NULL);
+            trace(scene, (pps_trace_options){.rays = 50000, .seed = seed}, NULL);
         for (size_t i = 0; i < n; i++) {
             sum[i] += e->back[i];
             sum2[i] += e->back[i] * e->back[i];
@@ -276,7 +276,7 @@ static void standard_errors_hold(void **state) {
         double mean = sum[i] / SEEDS;
         ratio += (sum2[i] / SEEDS - mean * mean) * SEEDS / (SEEDS - 1) / claimed[i];
     }
-    assert_close(ratio / (double)n, 1, 0.05, 0);
+    assert_close(ratio / (double)n, 1, 0.06, 0);
     free(sum);
     free(sum2);
     free(claimed);
@@ -351,17 +351,17 @@ static slab_flux turbid(double albedo, double tau, double mu0, int photons) {
 static void a_layer_of_small_leaves_is_a_turbid_slab(void **state) {
     (void)state;
     const double L = 3, albedo = 0.9, mu0 = 0.6;
-    pps_scene *scene = layer_scene(L, 60000, 12);
+    pps_scene *scene = layer_scene(L, 40000, 12);
     set_optics(scene, albedo / 2, albedo / 2);
     set_sun(scene, -0.8, 0, mu0);
     scene->ground = (pps_ground){true, -0.1, {0}};
     pps_energy e;
     pps_irradiance_free(trace(
-        scene, (pps_trace_options){.rays = 400000, .seed = 1, .sources = PPS_SUN}, &e));
+        scene, (pps_trace_options){.rays = 200000, .seed = 1, .sources = PPS_SUN}, &e));
     /* uncollided: the layer's own gaps differ from the mean by about 0.3 % of the light */
     assert_close(e.ground[0] / mu0, exp(-L / 2 / mu0), 0, 0.004);
     pps_irradiance_free(
-        trace(scene, (pps_trace_options){.rays = 400000, .seed = 2}, &e));
+        trace(scene, (pps_trace_options){.rays = 250000, .seed = 2}, &e));
     slab_flux want = turbid(albedo, L / 2, mu0, 400000);
     /* rays: 0.1 % of the light; leaves of finite size return a little more straight back */
     assert_close(e.escaped[0] / mu0, want.reflected, 0, 0.006);

@@ -36,10 +36,10 @@ PPS_API void pps_irradiance_free(pps_irradiance *irradiance); /* NULL is fine */
 
 typedef struct pps_trace_options {
     uint64_t rays, seed; /* 0 rays: 1000000 */
-    int bounces;      /* the most scatterings a ray makes, by leaves or ground, before
-                            it is absorbed where it arrives; 0: as many as it lives */
-    int threads;      /* 0: all cores; never changes the answer */
-    unsigned sources; /* pps_light_source, added; 0: all. Without indirect light
+    int bounces;         /* the most scatterings, by leaves or ground, before a ray is
+                            absorbed where it arrives; 0: as many as it lives */
+    int threads;         /* 0: all cores; never changes the answer */
+    unsigned sources;    /* pps_light_source, added; 0: all. Without an indirect one
                             nothing is scattered */
     /* Called now and then, from the calling thread, with done and total; stops the work
      * by returning false. */
@@ -57,9 +57,9 @@ typedef struct pps_energy {
         ground[PPS_BANDS_MAX], escaped[PPS_BANDS_MAX], chance[PPS_BANDS_MAX];
 } pps_energy;
 
-/* Light tracing with all bounces. Wood is black. In fields of few rays: a face that none
- * has met has irradiance 0 and the standard error of one ray. energy may be NULL. ARGUMENT:
- * more than 2^40 rays, an unknown source; CANCELLED when stopped. */
+/* Light tracing with all bounces. Wood is black. A face that no ray has met has irradiance
+ * 0, and as its standard error what one ray would bring. energy may be NULL. ARGUMENT: more
+ * than 2^40 rays, an unknown source; CANCELLED when stopped. */
 PPS_API pps_status pps_trace_light(const pps_scene *scene,
                                    const pps_trace_options *options,
                                    pps_irradiance **out, pps_energy *energy);
