@@ -60,6 +60,9 @@ static const double REACH = 80;
  * error relative to the sampled part of the value. */
 static const double MOST_VARIANCE_OF_VARIANCE = 0.05, MOST_RELATIVE_ERROR = 0.2;
 
+/* ... and, for radiances, from so many photons times (1 - |g|)^2 on. */
+static const double LEAST_PHOTONS_IN_PEAK = 30;
+
 typedef enum { BEAM, SKY, N_SOURCES } source;
 
 typedef struct {
@@ -384,14 +387,23 @@ static bool nothing_sampled(const problem *p, size_t i) {
     return p->slab.albedo == 0 || (at_end && !mean);
 }
 
+/* Whether the spread of radiances may miss what carries them: light that comes within the
+ * phase function's peak, 1 - |g| wide, of a wanted direction. A sample that happens to
+ * have none of it looks narrow, and is wrong. */
+static bool peak_is_missed(const problem *p) {
+    double width = 1 - fabs(p->slab.g);
+    return p->n_mu > 0 && (double)p->photons * width * width < LEAST_PHOTONS_IN_PEAK;
+}
+
 /* Values and standard errors of all outputs from the sums of powers. */
 static void summarise(const problem *p, const double *total, double *value,
                       double *error) {
     double n = (double)p->photons;
     for (size_t i = 0; i < p->n; i++) {
         value[i] = p->fixed[i] + total[i * N_POWERS] / n;
-        error[i] =
-            nothing_sampled(p, i) ? 0 : standard_error_of(total + i * N_POWERS, n);
+        error[i] = nothing_sampled(p, i) ? 0
+                   : peak_is_missed(p)   ? (double)INFINITY
+                                         : standard_error_of(total + i * N_POWERS, n);
     }
 }
 
