@@ -89,7 +89,8 @@ const pps_method pps_method_eddington = {
     .cost = "about ten exponentials a direction",
     .summary = "Eddington two-stream source marched along the ray",
     .limits = "4-6 % for |g| <= 0.5 in thick slabs; 35 % at g = 0.8; fluxes are the "
-              "two-stream's own and may be negative in thin forward-scattering slabs",
+              "two-stream's own, reflectance within 0.16 of what falls in; both may be "
+              "negative in thin forward-scattering slabs",
     .fields = true,
     .fluxes = true,
     .half_space = true,

@@ -96,8 +96,9 @@ static pps_status scheme_flux(void *state, size_t n, const double *tau,
 }
 
 #define LIMITS                                                                         \
-    "fluxes only; may be negative, or more than falls in, in thin slabs and for "      \
-    "grazing beams"
+    "fluxes only; reflectance within 0.18 of what falls in (hemispheric mean 0.3, "    \
+    "with delta and g < 0 0.45); may be negative, or more than falls in, in thin "     \
+    "slabs and for grazing beams"
 
 /* A row: the identifier of the method, its name, its closure, scaled or not. */
 #define SCHEMES(X)                                                                     \
