@@ -153,9 +153,7 @@ static double chance_error(const sample *got, const sample *want) {
 }
 
 /* A Monte Carlo that met too few photons says so. */
-static bool knows_fluxes(const sample *got) {
-    return isfinite(got->deviation[0] + got->deviation[1] + got->deviation[2]);
-}
+static bool knows_reflectance(const sample *got) { return isfinite(got->deviation[0]); }
 
 static double each_error(const sample *got, const sample *want) {
     double error = got->has_flux ? flux_error(got, want) : 0;
@@ -180,7 +178,7 @@ verdict judge_sample(const pps_method *method, double tolerance, const sample *g
     } else if (kept->measure == FIELD) {
         *error = field_error(got, want);
         right = *error <= few_directions * tolerance + want->accuracy;
-    } else if (kept->measure == STANDARD_ERRORS && !knows_fluxes(got)) {
+    } else if (kept->measure == STANDARD_ERRORS && !knows_reflectance(got)) {
         return REFUSED;
     } else {
         *error = each_error(got, want);

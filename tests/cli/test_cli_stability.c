@@ -57,7 +57,7 @@ static bool peaked(const cell *c) { return fabs(c->g) >= 0.9; }
 /* Where `adding` may: beyond 320 nodes, and where no more than e^-900 of the light comes
  * through, which is no number. */
 static bool beyond_adding(const cell *c) {
-    return fabs(c->g) >= 0.99 || c->mu0 < 1e-3 || (c->g == 0 && c->thickness == 1000);
+    return fabs(c->g) >= 0.99 || (c->g == 0 && c->thickness == 1000);
 }
 
 static bool always(const cell *c) {
