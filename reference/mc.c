@@ -16,8 +16,7 @@
  * Sampled is the rest: the photon flies, scatters with weight albedo, is reflected or
  * escapes. Light photons and, in thick slabs, long histories are thinned by roulette.
  *
- * References: Marchuk et al. 1980 for local estimates; Salmon et al. 2011 for counter-based
- * random numbers.
+ * References: Marchuk80 for local estimates; Salmon11 for counter-based random numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/mc.h"
@@ -121,7 +120,7 @@ double pps_mc_versine(double g, double u) {
 static direction turned(direction axis, double versine, double psi) {
     double cosine = 1 - versine, sine = sqrt(versine * (2 - versine));
     double along = sine * cos(psi), across = sine * sin(psi);
-    /* Two vectors normal to the axis (Duff et al. 2017). */
+    /* Two vectors normal to the axis (Duff17). */
     double sign = copysign(1, axis.mu), a = -1 / (sign + axis.mu);
     double b = axis.x * axis.y * a;
     direction to = {
@@ -409,7 +408,7 @@ static void summarise(const problem *p, const double *total, double *value,
 
 /* ---- the part that is not sampled ---- */
 
-/* E1 by its series below 1, E2 by its continued fraction above (Abramowitz and Stegun
+/* E1 by its series below 1, E2 by its continued fraction above (AS64
  * 5.1.11, 5.1.22), the others by n E_(n+1) = e^-x - x E_n. */
 void pps_mc_expint(double x, double *e2, double *e3) {
     if (x < 1) {

@@ -2,7 +2,7 @@
  * ray.
  *
  * gamma1 = (7 - albedo (4 + 3g))/4, gamma2 = -(1 - albedo (4 - 3g))/4,
- * gamma3 = (2 - 3 g mu0)/4 (Meador & Weaver 1980, Table 1), so that e = 2 (1 - albedo),
+ * gamma3 = (2 - 3 g mu0)/4 (MW80, Table 1), so that e = 2 (1 - albedo),
  * f = 3/2 (1 - albedo g). The radiance in the source is I0 + I1 mu with
  * I0 = (F+ + F-)/(2 pi), I1 = 3 (F+ - F-)/(4 pi); one scattering makes it I0 + g I1 mu.
  *

@@ -27,8 +27,8 @@ typedef struct {
 #define SQRT3 1.7320508075688772935
 
 /* MW80 and Toon89, Table 1 of each. Toon89 leaves gamma3 of the hemispheric mean open:
- * here (2 - g mu0)/4, as is usual. PIFM ("practical improved flux method"): Zdunkowski,
- * Welch & Korb (1980), Beitr. Phys. Atmos. 53, 147. */
+ * here (2 - g mu0)/4, as is usual. PIFM, the "practical improved flux
+ * method": ZWK80. */
 static const closure eddington = {2, 1.5, 0, 1.5, 1.5};
 static const closure quadrature = {SQRT3, SQRT3, 0, SQRT3, SQRT3};
 static const closure hemispheric_mean = {2, 2, 0, 2, 0.5};
