@@ -336,7 +336,6 @@ static void a_peak_that_was_not_seen_is_not_left_out_of_the_error(void **state) 
     for (int i = 0; i < N_RADIANCES; i++) {
         assert_true(got.error[i] == 0 || isinf(got.error[i]));
     }
-    assert_true(isfinite(got.error[N_RADIANCES]));
 }
 
 static void the_method_reports_its_largest_error(void **state) {
