@@ -36,13 +36,18 @@ static int moments_for(pps_nodes nodes, int streams) {
 
 pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
     /* Mapped nodes converge exponentially and see grazing directions, but carry fewer
-     * moments: they win in thin slabs, and wherever these resolve the phase function. In
-     * very thin slabs few moments matter, as single scattering is taken exactly. */
+     * moments: they win where these resolve the phase function as well as Gauss nodes do
+     * the grazing directions (errors fall as streams^-3 or faster), and always in thin
+     * slabs, where those directions matter most. In very thin slabs few moments matter,
+     * as single scattering is taken exactly. The factors: tests/test_dom.c. */
     if (slab->thickness < 0.01) {
         return PPS_NODES_GRADED;
     }
     double left_out = pow(fabs(slab->g), moments_for(PPS_NODES_MAPPED, streams));
-    bool mapped = slab->thickness < 1 || fabs(slab->g) <= 0.7 || left_out < 1e-7;
+    double seen = pow(16.0 / streams, 3);
+    bool mapped = slab->thickness < 0.1 ||
+                  (slab->thickness < 1 ? left_out < 1e-3 * seen
+                                       : streams > 8 && left_out < 2e-5 * seen);
     return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
 }
 

@@ -5,7 +5,7 @@
  *                         ge.psi + go.phi (mu > 0) or ge.psi - go.phi (mu < 0)
  *   single scattering     albedo p(Theta) times the ray integral of the beam, with the
  *                         exact phase function; with delta-M that is the TMS correction
- *                         of Nakajima & Tanaka (1988)
+ *                         of NT88
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>

@@ -77,7 +77,8 @@ const pps_method pps_method_hemispheric = {
     .name = "hemispheric",
     .cost = "three exponentials a depth",
     .summary = "SPP's hemispheres with mean cosine 1/2 for diffuse light",
-    .limits = "same radiance in every direction of a hemisphere; fluence to 3-11 %",
+    .limits = "same radiance in every direction of a hemisphere; fluence to 3-11 %; "
+              "reflectance within 0.1 of what falls in",
     .fields = true,
     .fluxes = true,
     .half_space = true,

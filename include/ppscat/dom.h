@@ -25,8 +25,8 @@ extern "C" {
 
 /* Quadrature of a hemisphere, n = streams / 2 nodes. */
 typedef enum {
-    PPS_NODES_AUTO,   /* graded below thickness 0.01; mapped below 1, for |g| <= 0.7 and
-                         with many streams; else Gauss */
+    PPS_NODES_AUTO,   /* graded below thickness 0.01; mapped below 0.1, and where they
+                         carry moments enough for g; else Gauss (docs/theory.md, 6) */
     PPS_NODES_GAUSS,  /* Gauss-Legendre on (0, 1): "double Gauss" */
     PPS_NODES_MAPPED, /* mu = x^2 with Gauss-Legendre x: dense at grazing angles */
     PPS_NODES_GRADED  /* mu = x^4: for slabs so thin that mu ~ thickness matters */
