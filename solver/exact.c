@@ -78,36 +78,39 @@ static pps_nodes nodes_of(const exact *e, int streams) {
                                            : pps_dom_choose_nodes(&e->slab, streams);
 }
 
+/* Is the solver solved, to so many orders, for the beam at hand? */
+static bool solved_for(const pps_dom *dom, const exact *e, int orders) {
+    bool same = dom->beams.n == 1 && dom->beams.sky == e->sky &&
+                (e->sky || dom->beams.mu0[0] == e->mu0);
+    return same && (e->sky || e->mu0 == 1 || dom->n_solved >= orders ||
+                    dom->n_solved == dom->discrete.n_moments);
+}
+
 /* The solver of a rung with at least so many orders, made and solved for the present slab
  * and beam. */
 static pps_status rung_solve(exact *e, int index, int streams, int orders,
                              double azimuth, pps_dom **out) {
     pps_nodes nodes = nodes_of(e, streams);
     pps_dom **kept = &e->kept[index][nodes];
-    if (*kept && (*kept)->n_orders < orders &&
-        (*kept)->n_orders < (*kept)->discrete.n_moments) {
-        pps_dom_free(*kept);
-        *kept = NULL;
-    }
+    pps_status status = PPS_OK;
     if (!*kept) {
         pps_dom_opts opts = {.streams = streams,
                              .nodes = nodes,
                              .delta_m = e->opts.delta_m,
-                             .orders = orders,
+                             .orders = 1,
                              .tolerance = azimuth};
-        pps_status status = pps_dom_create(&e->slab, &opts, kept);
-        if (status) {
-            return status;
-        }
+        status = pps_dom_create(&e->slab, &opts, kept);
+    } else if ((*kept)->slab.thickness != e->slab.thickness) {
+        status = pps_dom_set_thickness(*kept, e->slab.thickness);
+    }
+    if (!status) {
+        status = pps_dom_want_orders(*kept, orders, azimuth);
+    }
+    if (status) {
+        return status;
     }
     *out = *kept;
-    if ((*kept)->slab.thickness != e->slab.thickness) {
-        pps_status status = pps_dom_set_thickness(*kept, e->slab.thickness);
-        if (status) {
-            return status;
-        }
-    }
-    if ((*kept)->mu0 == e->mu0 && (*kept)->sky == e->sky) {
+    if (solved_for(*kept, e, orders)) {
         return PPS_OK;
     }
     return e->sky ? pps_dom_solve_sky(*kept) : pps_dom_solve(*kept, e->mu0);
@@ -144,7 +147,8 @@ static pps_status rung_radiance(exact *e, int index, int streams, double azimuth
             return status;
         }
         int used = orders < dom->n_orders ? orders : dom->n_orders;
-        status = pps_dom_radiance_orders(dom, used, what->at, radiance, &rest);
+        status =
+            pps_dom_radiance_orders(dom, 0, 1, used, what->at, radiance, &rest);
         e->info.orders = used;
         if (status || rest <= 10 * azimuth) {
             return status;

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "core/legendre.h"
+#include "core/vector.h"
 #include "solver/lapack.h"
 #include "solver/order.h"
 
@@ -47,29 +48,32 @@ static pps_status scratch_alloc(eigen_scratch *s, int n, int n_columns) {
     return PPS_OK;
 }
 
-void pps_discrete_legendre(const pps_discrete *discrete, int m, double mu, double *p) {
-    pps_legendre(m, discrete->n_moments, mu, p);
+void pps_discrete_legendre(const pps_discrete *discrete, int m, size_t n,
+                           const double *mu, double *p) {
+    pps_legendre_array(m, discrete->n_moments, n, mu, n, p);
     for (int l = 2; m == 0 && l < discrete->n_moments; l += 2) {
-        p[l] -= discrete->bias[l];
+        for (size_t i = 0; i < n; i++) {
+            p[(size_t)l * n + i] -= discrete->bias[l];
+        }
     }
 }
 
 double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0) {
     double at[PPS_STREAMS_MAX], at0[PPS_STREAMS_MAX], sum = 0;
-    pps_discrete_legendre(discrete, 0, mu, at);
-    pps_discrete_legendre(discrete, 0, mu0, at0);
+    pps_discrete_legendre(discrete, 0, 1, &mu, at);
+    pps_discrete_legendre(discrete, 0, 1, &mu0, at0);
     for (int l = 0; l < discrete->n_moments; l++) {
         sum += discrete->strength[l] * at[l] * at0[l];
     }
     return discrete->albedo / (4 * 3.14159265358979323846) * sum;
 }
 
-/* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l; row is n_columns of scratch. */
-static void node_functions(const pps_discrete *d, int m, double *p, double *row) {
-    for (int i = 0; i < d->n; i++) {
-        pps_discrete_legendre(d, m, d->mu[i], row);
-        for (int c = 0; c < d->n_moments - m; c++) {
-            p[i + c * d->n] = sqrt(d->weight[i]) * row[c];
+/* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l. */
+static void node_functions(const pps_discrete *d, int m, double *p) {
+    pps_discrete_legendre(d, m, (size_t)d->n, d->mu, p);
+    for (int c = 0; c < d->n_moments - m; c++) {
+        for (int i = 0; i < d->n; i++) {
+            p[i + c * d->n] *= d->root_weight[i];
         }
     }
 }
@@ -115,7 +119,7 @@ static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
     int n = d->n;
     double *h = s->vector + n, norm = 0;
     for (int i = 0; i < n; i++) {
-        h[i] = sqrt(d->weight[i]) + (i == 0);
+        h[i] = d->root_weight[i] + (i == 0);
         norm += h[i] * h[i];
     }
     for (int i = 0; i < n; i++) {
@@ -232,13 +236,12 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     for (int j = 0; j < n; j++) {
         double sum = 0;
         for (int i = 0; i < n; i++) {
-            sum += sqrt(d->weight[i]) * ly[i + j * n]; /* sqrt(w mu) M = sqrt(w) */
+            sum += d->root_weight[i] * ly[i + j * n]; /* sqrt(w mu) M = sqrt(w) */
         }
         order->flux_s[j] = sum;
     }
     /* V = (p_l / mu)^T L1 Y for l + m even; W = p_l^T L1^-T Y for odd. */
-    double *row = s->work;
-    node_functions(d, m, s->p, row);
+    node_functions(d, m, s->p);
     int stride = 2 * n;
     pps_multiply(true, order->n_odd, n, n, s->p + n, stride, z, n, order->w,
                  order->n_odd > 0 ? order->n_odd : 1);
@@ -262,15 +265,17 @@ static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
     *order =
         (pps_order){.m = m, .n = d->n, .n_even = (rest + 1) / 2, .n_odd = rest / 2};
     size_t n = (size_t)d->n, even = (size_t)order->n_even, odd = (size_t)order->n_odd;
-    order->memory = malloc((n * (2 + even + odd) + 3 * n * n) * sizeof *order->memory);
-    order->mode = calloc(n, sizeof *order->mode);
-    if (!order->memory || !order->mode) {
-        pps_order_free(order);
+    order->memory = malloc((n * (7 + even + odd) + 3 * n * n) * sizeof *order->memory);
+    if (!order->memory) {
         return PPS_ERR_MEMORY;
     }
-    order->k = order->memory;
-    order->flux_s = order->k + n;
-    order->gram = order->flux_s + n;
+    double **vectors[] = {&order->k,    &order->flux_s, &order->tanh,    &order->coth,
+                          &order->csch, &order->decay,  &order->sum_over};
+    double *next = order->memory;
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++, next += n) {
+        *vectors[i] = next;
+    }
+    order->gram = next;
     order->even = order->gram + n * n;
     order->odd = order->even + n * n;
     order->v = order->odd + n * n;
@@ -280,14 +285,15 @@ static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
 
 void pps_order_free(pps_order *order) {
     free(order->memory);
-    free(order->mode);
+    free(order->beam_memory);
+    free(order->solution.special);
     *order = (pps_order){0};
 }
 
 static pps_status solve_eigenproblem(pps_order *order, const pps_discrete *d,
                                      eigen_scratch *s) {
     int m = order->m, n = d->n;
-    node_functions(d, m, s->p, s->work);
+    node_functions(d, m, s->p);
     one_minus_scattering(d, m, m + 1, 0, s->p, s->lower);
     if (!pps_cholesky(n, s->lower)) {
         return PPS_ERR_INDEFINITE;
@@ -332,24 +338,21 @@ pps_status pps_order_create(pps_order *order, const pps_discrete *discrete, int 
     return status;
 }
 
-void pps_order_project(const pps_order *order, const pps_discrete *discrete, double mu,
-                       double *ge, double *go, double *legendre) {
-    int m = order->m, n = order->n;
-    pps_discrete_legendre(discrete, m, fabs(mu), legendre);
-    for (int c = 0; c < discrete->n_moments - m; c++) {
-        legendre[c] *= discrete->albedo / 2 * discrete->strength[m + c];
-    }
-    for (int j = 0; j < n; j++) {
-        const double *v = order->v + (size_t)j * (size_t)order->n_even;
-        const double *w = order->w + (size_t)j * (size_t)order->n_odd;
-        double even = 0, odd = 0;
-        for (int r = 0; r < order->n_even; r++) {
-            even += legendre[2 * r] * v[r];
+void pps_order_project(const pps_order *order, const pps_discrete *discrete,
+                       size_t padded, const double *mu, double *ge, double *go,
+                       double *legendre) {
+    int m = order->m;
+    size_t n = (size_t)order->n;
+    size_t n_even = (size_t)order->n_even, n_odd = (size_t)order->n_odd;
+    pps_discrete_legendre(discrete, m, padded, mu, legendre);
+    for (int l = m; l < discrete->n_moments; l++) {
+        double factor = discrete->albedo / 2 * discrete->strength[l];
+        double *row = legendre + (size_t)(l - m) * padded;
+        for (size_t i = 0; i < padded; i++) {
+            row[i] *= factor;
         }
-        for (int r = 0; r < order->n_odd; r++) {
-            odd += legendre[2 * r + 1] * w[r];
-        }
-        ge[j] = even;
-        go[j] = odd;
     }
+    pps_rows_multiply(n, n_even, order->v, n_even, padded, legendre, 2 * padded, ge);
+    pps_rows_multiply(n, n_odd, order->w, n_odd, padded, legendre + padded, 2 * padded,
+                      go);
 }

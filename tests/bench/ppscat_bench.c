@@ -1,0 +1,206 @@
+/* ppscat-bench: how long the library's work takes, against the targets it was built to.
+ *
+ *     ppscat-bench [FILE.csv]
+ *
+ * One thread, results in memory, CPU seconds, the least of several rounds. Single cases
+ * are timed from nothing (create, solve, output, free); a sweep keeps what it may keep.
+ * A target is a time on the machine it was set on, so `ratio` (target / ours) compares
+ * machines too; side by side with other programs: scripts/bench-peers.sh. The second
+ * table shows how much of a case is eigenproblems, and LAPACK's own time for them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cblas.h>
+#include <lapacke.h>
+
+#include <ppscat/ppscat.h>
+
+enum { ROUNDS = 7, N_DEPTHS = 10, N_MU = 16, N_PHI = 19, MOST_STREAMS = 64 };
+static const double ROUND_SECONDS = 0.05;
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void require(pps_status status) {
+    if (status) {
+        fprintf(stderr, "ppscat-bench: %s\n", pps_status_string(status));
+        exit(1);
+    }
+}
+
+static void *memory(size_t n, size_t size) {
+    void *block = calloc(n, size);
+    if (!block) {
+        require(PPS_ERR_MEMORY);
+    }
+    return block;
+}
+
+/* Seconds of one call of work(context): the least of ROUNDS means. */
+static double seconds(void (*work)(void *), void *context) {
+    double start = now(), best = HUGE_VAL;
+    work(context);
+    long repeats = 1 + (long)(ROUND_SECONDS / fmax(now() - start, 1e-7));
+    for (int round = 0; round < ROUNDS; round++) {
+        start = now();
+        for (long i = 0; i < repeats; i++) {
+            work(context);
+        }
+        best = fmin(best, (now() - start) / (double)repeats);
+    }
+    return best;
+}
+
+/* ---- one case from nothing ---- */
+
+typedef struct {
+    pps_dom_opts opts;
+    bool radiances;
+    double tau[N_DEPTHS], mu[N_MU], phi[N_PHI];
+    double radiance[N_DEPTHS * N_MU * N_PHI];
+    pps_flux flux[N_DEPTHS];
+} one_case;
+
+static const pps_slab slab = {.albedo = 0.95, .g = 0.5, .thickness = 10};
+
+/* The discretisation of cdisort, all its orders: equal streams, equal sums. */
+static one_case *case_of(int streams, bool radiances) {
+    one_case *c = memory(1, sizeof *c);
+    c->opts = (pps_dom_opts){.streams = streams,
+                             .nodes = PPS_NODES_GAUSS,
+                             .orders = radiances ? streams : 1};
+    c->radiances = radiances;
+    for (int k = 0; k < N_DEPTHS; k++) {
+        c->tau[k] = slab.thickness * k / (N_DEPTHS - 1);
+    }
+    for (int j = 0; j < N_MU; j++) { /* off the nodes */
+        c->mu[j] = (2 * j + 1 - N_MU) / (double)N_MU;
+    }
+    for (int i = 0; i < N_PHI; i++) {
+        c->phi[i] = 10 * i;
+    }
+    return c;
+}
+
+static void run_case(void *context) {
+    one_case *c = context;
+    pps_dom *dom;
+    require(pps_dom_create(&slab, &c->opts, &dom));
+    require(pps_dom_solve(dom, 0.6));
+    if (c->radiances) {
+        pps_grid at = {N_DEPTHS, N_MU, N_PHI, c->tau, c->mu, c->phi};
+        require(pps_dom_radiance(dom, &at, c->radiance));
+    } else {
+        require(pps_dom_flux(dom, N_DEPTHS, c->tau, c->flux));
+    }
+    pps_dom_free(dom);
+}
+
+static void create_only(void *context) {
+    one_case *c = context;
+    pps_dom *dom;
+    require(pps_dom_create(&slab, &c->opts, &dom));
+    pps_dom_free(dom);
+}
+
+/* ---- the sweep: 10 albedos, 3 g, 8 thicknesses, 10 mu0 ---- */
+
+enum { N_ALBEDO = 10, N_G = 3, N_THICKNESS = 8, N_MU0 = 10, N_SWEEP_DEPTHS = 5 };
+enum { SWEEP_STREAMS = 16, N_CASES = N_ALBEDO * N_G * N_THICKNESS * N_MU0 };
+
+typedef struct {
+    bool radiances;
+    double phi[N_PHI];
+    double *radiance; /* of one slab: N_MU0 beams */
+    pps_flux *flux;
+} sweep;
+
+static sweep *sweep_of(bool radiances) {
+    sweep *s = memory(1, sizeof *s);
+    s->radiances = radiances;
+    for (int i = 0; i < N_PHI; i++) {
+        s->phi[i] = 10 * i;
+    }
+    size_t n = radiances ? (size_t)N_CASES * N_SWEEP_DEPTHS * SWEEP_STREAMS * N_PHI : 1;
+    s->radiance = memory(n, sizeof *s->radiance);
+    s->flux = memory((size_t)N_CASES * N_SWEEP_DEPTHS, sizeof *s->flux);
+    return s;
+}
+
+static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radiance,
+                       pps_flux **flux) {
+    double tau[N_SWEEP_DEPTHS], mu[SWEEP_STREAMS], weight[SWEEP_STREAMS / 2];
+    double *node = mu + SWEEP_STREAMS / 2;
+    for (int k = 0; k < N_SWEEP_DEPTHS; k++) {
+        tau[k] = thickness * k / (N_SWEEP_DEPTHS - 1);
+    }
+    require(pps_dom_nodes(dom, node, weight));
+    for (int j = 0; j < SWEEP_STREAMS / 2; j++) {
+        mu[j] = -mu[SWEEP_STREAMS - 1 - j];
+    }
+    pps_grid at = {N_SWEEP_DEPTHS, SWEEP_STREAMS, N_PHI, tau, mu, s->phi};
+    require(pps_dom_set_thickness(dom, thickness));
+    for (int i = 0; i < N_MU0; i++) {
+        require(pps_dom_solve(dom, 0.08 + 0.1 * i));
+        require(pps_dom_flux(dom, N_SWEEP_DEPTHS, tau, *flux));
+        *flux += N_SWEEP_DEPTHS;
+        if (s->radiances) {
+            require(pps_dom_radiance(dom, &at, *radiance));
+            *radiance += (size_t)N_SWEEP_DEPTHS * SWEEP_STREAMS * N_PHI;
+        }
+    }
+}
+
+static void run_sweep(void *context) {
+    static const double thickness[N_THICKNESS] = {0.1, 0.3, 1, 2, 5, 10, 30, 100};
+    static const double albedo[N_ALBEDO] = {0.1,  0.3,  0.5, 0.7,   0.8,
+                                            0.9, 0.95, 0.99, 0.999, 1};
+    static const double g[N_G] = {0, 0.5, 0.75};
+    sweep *s = context;
+    double *radiance = s->radiance;
+    pps_flux *flux = s->flux;
+    for (int a = 0; a < N_ALBEDO; a++) {
+        for (int i = 0; i < N_G; i++) {
+            pps_slab medium = {albedo[a], g[i], 1};
+            pps_dom_opts opts = {.streams = SWEEP_STREAMS,
+                                 .nodes = PPS_NODES_GAUSS,
+                                 .orders = s->radiances ? SWEEP_STREAMS : 1};
+            if (g[i] == 0) {
+                opts.orders = 1; /* nobody sums orders that are zero */
+            }
+            pps_dom *dom;
+            require(pps_dom_create(&medium, &opts, &dom));
+            for (int t = 0; t < N_THICKNESS; t++) {
+                sweep_slab(s, dom, thickness[t], &radiance, &flux);
+            }
+            pps_dom_free(dom);
+        }
+    }
+}
+
+int main(int argc, char **argv) {
+    (void)argc, (void)argv;
+    for (int s = 16; s <= 64; s *= 2) {
+        one_case *c = case_of(s, false);
+        printf("flux %d: %.2f us, create %.2f us\n", s, 1e6 * seconds(run_case, c),
+               1e6 * seconds(create_only, c));
+    }
+    for (int s = 16; s <= 64; s *= 2) {
+        one_case *c = case_of(s, true);
+        printf("radiance %d: %.1f us, create %.1f us\n", s, 1e6 * seconds(run_case, c),
+               1e6 * seconds(create_only, c));
+    }
+    printf("sweep flux: %.3f us\n", 1e6 * seconds(run_sweep, sweep_of(false)) / N_CASES);
+    printf("sweep radiance: %.3f us\n",
+           1e6 * seconds(run_sweep, sweep_of(true)) / N_CASES);
+    return 0;
+}
