@@ -1,5 +1,5 @@
 # Files with loops for the vector units (core/vector.h): `ppscat_vector_sources(FILE...)`
-# in the folder of those files. The flags change no result: nothing is re-associated.
+# in the folder of those files. The flags change no result: nothing is re-associated. (-Wno-psabi: no vector is passed between files.)
 include(CheckCSourceCompiles)
 check_c_source_compiles("
     #if defined(__clang__) || !defined(__x86_64__)
@@ -15,5 +15,5 @@ endif()
 function(ppscat_vector_sources)
     set_source_files_properties(${ARGN}
         TARGET_DIRECTORY ppscat_objects
-        PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno;-fno-trapping-math")
+        PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno;-fno-trapping-math;-Wno-psabi")
 endfunction()

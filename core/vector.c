@@ -7,15 +7,15 @@
 
 PPS_CLONES void pps_exp_array(size_t n, const double *x, double *y) {
     size_t i = 0;
-    for (; i + PPS_LANES <= n; i += PPS_LANES) {
-        lanes_exp(x + i, y + i);
+    for (; i + FOUR <= n; i += FOUR) {
+        four_to(y + i, four_exp(four_at(x + i)));
     }
     if (i < n) {
-        double rest[PPS_LANES] = {0};
+        double rest[FOUR] = {0};
         for (size_t l = 0; l < n - i; l++) {
             rest[l] = x[i + l];
         }
-        lanes_exp(rest, rest);
+        four_to(rest, four_exp(four_at(rest)));
         for (size_t l = 0; l < n - i; l++) {
             y[i + l] = rest[l];
         }
@@ -26,60 +26,50 @@ PPS_CLONES void pps_rows_multiply(size_t rows, size_t inner, const double *a,
                                   size_t lda, size_t padded, const double *b,
                                   size_t ldb, double *c) {
     for (size_t i = 0; i < rows; i++) {
+        const double *ai = a + i * lda;
         for (size_t at = 0; at < padded; at += PPS_LANES) {
-            double sum[PPS_LANES] = {0};
-            for (size_t j = 0; j < inner; j++) {
-                double factor = a[i * lda + j];
-                const double *bj = b + j * ldb + at;
-                for (int l = 0; l < PPS_LANES; l++) {
-                    sum[l] += factor * bj[l];
-                }
+            const double *bj = b + at;
+            four left = {0}, right = {0};
+            for (size_t j = 0; j < inner; j++, bj += ldb) {
+                left += ai[j] * four_at(bj);
+                right += ai[j] * four_at(bj + FOUR);
             }
-            for (int l = 0; l < PPS_LANES; l++) {
-                c[i * padded + at + (size_t)l] = sum[l];
-            }
+            four_to(c + i * padded + at, left);
+            four_to(c + i * padded + at + FOUR, right);
         }
     }
 }
 
-/* x -= factor y */
-static inline void subtract(double *restrict x, double factor,
-                            const double *restrict y) {
-    for (int l = 0; l < PPS_LANES; l++) {
-        x[l] -= factor * y[l];
+/* L y = b, then L^T x = y, for a block of columns. */
+PPS_LANE void solve_block(size_t n, const double *factor, size_t padded,
+                               double *column) {
+    for (size_t i = 0; i < n; i++) {
+        double *bi = column + i * padded;
+        four left = four_at(bi), right = four_at(bi + FOUR);
+        for (size_t j = 0; j < i; j++) {
+            double l = factor[i + j * n];
+            left -= l * four_at(column + j * padded);
+            right -= l * four_at(column + j * padded + FOUR);
+        }
+        four_to(bi, left * factor[i + i * n]);
+        four_to(bi + FOUR, right * factor[i + i * n]);
     }
-}
-
-static inline void scale(double *x, double factor) {
-    for (int l = 0; l < PPS_LANES; l++) {
-        x[l] *= factor;
+    for (size_t i = n; i-- > 0;) {
+        const double *li = factor + i * n;
+        double *bi = column + i * padded;
+        four left = four_at(bi), right = four_at(bi + FOUR);
+        for (size_t j = i + 1; j < n; j++) {
+            left -= li[j] * four_at(column + j * padded);
+            right -= li[j] * four_at(column + j * padded + FOUR);
+        }
+        four_to(bi, left * li[i]);
+        four_to(bi + FOUR, right * li[i]);
     }
 }
 
 PPS_CLONES void pps_rows_solve(size_t n, const double *factor, size_t padded,
                                double *b) {
     for (size_t at = 0; at < padded; at += PPS_LANES) {
-        double *column = b + at;
-        for (size_t j = 0; j < n; j++) { /* L y = b */
-            const double *lj = factor + j * n;
-            double *bj = column + j * padded;
-            scale(bj, lj[j]);
-            for (size_t i = j + 1; i < n; i++) {
-                subtract(column + i * padded, lj[i], bj);
-            }
-        }
-        for (size_t j = n; j-- > 0;) { /* L^T x = y */
-            const double *lj = factor + j * n;
-            double sum[PPS_LANES];
-            for (int l = 0; l < PPS_LANES; l++) {
-                sum[l] = column[j * padded + (size_t)l];
-            }
-            for (size_t i = j + 1; i < n; i++) {
-                subtract(sum, lj[i], column + i * padded);
-            }
-            for (int l = 0; l < PPS_LANES; l++) {
-                column[j * padded + (size_t)l] = sum[l] * lj[j];
-            }
-        }
+        solve_block(n, factor, padded, b + at);
     }
 }

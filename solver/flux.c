@@ -14,7 +14,7 @@ static const double PI = 3.14159265358979323846;
 
 /* A block of beams at one scaled depth: sums over modes. */
 typedef struct {
-    double even[PPS_LANES], odd[PPS_LANES]; /* (down + up) and (down - up), over 2 */
+    double even[PPS_LANES], odd[PPS_LANES];  /* (down + up) and (down - up), over 2 */
     double mean[PPS_LANES], size[PPS_LANES]; /* mean intensity; |even| + |odd| summed */
 } mode_sums;
 
@@ -23,14 +23,45 @@ typedef struct {
     double even, odd, mean;
 } mode_weights;
 
-static inline void add_mode(const mode_weights *of, const double *psi,
-                            const double *phi, mode_sums *sum) {
-    for (int l = 0; l < PPS_LANES; l++) {
-        double even = of->even * psi[l], odd = of->odd * phi[l];
-        sum->even[l] += even;
-        sum->odd[l] += odd;
-        sum->mean[l] += of->mean * psi[l];
-        sum->size[l] += fabs(even) + fabs(odd);
+/* V of l = 0 is the mean intensity, W of l = 1 the net flux of mode j. */
+static inline mode_weights weights_of(const pps_order *order, size_t j) {
+    return (mode_weights){.even = PI * order->flux_s[j],
+                          .odd = PI * order->w[j * (size_t)order->n_odd],
+                          .mean = order->v[j * (size_t)order->n_even] / 2};
+}
+
+/* The same for half a block, in registers. */
+typedef struct {
+    four even, odd, mean, size;
+} four_sums;
+
+PPS_LANE four_sums sums_at(const mode_sums *sum, size_t at) {
+    return (four_sums){four_at(sum->even + at), four_at(sum->odd + at),
+                       four_at(sum->mean + at), four_at(sum->size + at)};
+}
+
+PPS_LANE void sums_to(mode_sums *sum, size_t at, const four_sums *value) {
+    four_to(sum->even + at, value->even);
+    four_to(sum->odd + at, value->odd);
+    four_to(sum->mean + at, value->mean);
+    four_to(sum->size + at, value->size);
+}
+
+PPS_LANE void add_mode(const mode_weights *of, four psi, four phi,
+                            four_sums *sum) {
+    four even = of->even * psi, odd = of->odd * phi;
+    sum->even += even;
+    sum->odd += odd;
+    sum->mean += of->mean * psi;
+    sum->size += four_abs(even) + four_abs(odd);
+}
+
+PPS_CLONES static void add_values(const mode_weights *of, const double *psi,
+                                  const double *phi, mode_sums *sum) {
+    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+        four_sums part = sums_at(sum, at);
+        add_mode(of, four_at(psi + at), four_at(phi + at), &part);
+        sums_to(sum, at, &part);
     }
 }
 
@@ -42,13 +73,6 @@ typedef struct {
 
 /* Depths that are handled together. */
 enum { DEPTHS = 16 };
-
-/* V of l = 0 is the mean intensity, W of l = 1 the net flux of mode j. */
-static mode_weights weights_of(const pps_order *order, size_t j) {
-    return (mode_weights){.even = PI * order->flux_s[j],
-                          .odd = PI * order->w[j * (size_t)order->n_odd],
-                          .mean = order->v[j * (size_t)order->n_even] / 2};
-}
 
 /* Modes k w < 1: from the series of the nearer edge. */
 static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
@@ -79,7 +103,7 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
             double u = (side ? w - tau[k] : tau[k]) / w;
             pps_series_value(a[side], u, psi);
             pps_series_value(b[side], u, phi);
-            add_mode(&of, psi, phi, &sum[k]);
+            add_values(&of, psi, phi, &sum[k]);
         }
     }
 }
@@ -105,24 +129,20 @@ PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
                                         size_t first, const mode_decays *decays,
                                         const double *eqt, mode_sums *out) {
     const pps_solution *s = &order->solution;
-    mode_sums sum = *out;
-    for (size_t j = 0; j < (size_t)order->n; j++) {
-        const double *p = s->p + j * padded + first, *r = s->r + j * padded + first;
-        const double *c1 = s->c1 + j * padded + first;
-        const double *c2 = s->c2 + j * padded + first;
-        double top = decays->top[j], bottom = decays->bottom[j], k = order->k[j];
-        double psi[PPS_LANES], phi[PPS_LANES];
-        mode_weights of = {.even = PI * order->flux_s[j],
-                           .odd = PI * order->w[j * (size_t)order->n_odd],
-                           .mean = order->v[j * (size_t)order->n_even] / 2};
-        for (int l = 0; l < PPS_LANES; l++) {
-            double falls = c1[l] * top, grows = c2[l] * bottom;
-            psi[l] = (falls + grows) + p[l] * eqt[l];
-            phi[l] = k * (falls - grows) + r[l] * eqt[l];
+    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+        four_sums sum = sums_at(out, at);
+        four beam = four_at(eqt + at);
+        for (size_t j = 0; j < (size_t)order->n; j++) {
+            size_t i = j * padded + first + at;
+            mode_weights of = weights_of(order, j);
+            four falls = four_at(s->c1 + i) * decays->top[j];
+            four grows = four_at(s->c2 + i) * decays->bottom[j];
+            four psi = (falls + grows) + four_at(s->p + i) * beam;
+            four phi = order->k[j] * (falls - grows) + four_at(s->r + i) * beam;
+            add_mode(&of, psi, phi, &sum);
         }
-        add_mode(&of, psi, phi, &sum);
+        sums_to(out, at, &sum);
     }
-    *out = sum;
 }
 
 /* The special modes, one by one. */
@@ -272,19 +292,14 @@ typedef struct {
     double direct[PPS_LANES], scaled[PPS_LANES], peak[PPS_LANES];
 } beam_here;
 
-PPS_CLONES static void beam_at(const double *q, double tau, double scaled,
+PPS_CLONES static void beam_at(const double *rates, double tau, double scaled,
                                beam_here *beam) {
-    for (int l = 0; l < PPS_LANES; l++) {
-        beam->direct[l] = -q[l] * tau;
-        beam->scaled[l] = -q[l] * scaled;
-        beam->peak[l] = -q[l] * (tau - scaled) / 2;
-    }
-    lanes_exp(beam->direct, beam->direct);
-    lanes_exp(beam->scaled, beam->scaled);
-    lanes_exp(beam->peak, beam->peak); /* the root of e^(-z) */
-    for (int l = 0; l < PPS_LANES; l++) {
-        double z = q[l] * (tau - scaled);
-        beam->peak[l] = beam->scaled[l] * (z * lane_decay_mean(z, beam->peak[l]));
+    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+        four q = four_at(rates + at), z = q * (tau - scaled);
+        four here = four_exp(-q * scaled);
+        four_to(beam->direct + at, four_exp(-q * tau));
+        four_to(beam->scaled + at, here);
+        four_to(beam->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
     }
 }
 

@@ -39,7 +39,7 @@ typedef struct {
     double *ge, *go;             /* n rows, when the view has not kept them */
     double *near, *near_over;    /* a row each, of the mode in hand */
     double *far, *far_over;      /* "    */
-    double *same, *opposite;     /* n_tau x n rows */
+    double *row[2];              /* n_tau x n rows: what a c1, a c2 of 1 gives */
     double *moment;              /* n_tau x PPS_SERIES_TERMS rows */
     double *legendre;            /* n_moments rows */
     double *cosine;              /* n_phi */
@@ -81,8 +81,8 @@ static size_t field_layout(field *s, double *memory) {
         {&s->near_over, row},
         {&s->far, row},
         {&s->far_over, row},
-        {&s->same, n_tau * n * row},
-        {&s->opposite, n_tau * n * row},
+        {&s->row[0], n_tau * n * row},
+        {&s->row[1], n_tau * n * row},
         {&s->moment, n_tau * PPS_SERIES_TERMS * row},
         {&s->legendre, (size_t)d->n_moments * row},
         {&s->cosine, s->at->n_phi},
@@ -300,7 +300,7 @@ static void mode_rows(field *s, const pps_order *order, const double *ge,
                 pps_mode_here here = {order->k[j], s->mode[down ? 0 : 2][i],
                                       s->mode[down ? 1 : 3][i],
                                       s->mode[down ? 2 : 0][i]};
-                pps_mode_rays(&run, &here, &view, s->same + to, s->opposite + to);
+                pps_mode_rays(&run, &here, &view, s->row[!down] + to, s->row[down] + to);
             }
         }
     }
@@ -392,12 +392,14 @@ static void add_resonance(field *s, const pps_special *special, const double *ge
                           const double *go, double *term) {
     const pps_mode *mode = &special->mode;
     size_t row = (size_t)special->j * s->n_slots;
+    const double *beam = s->beam + (special->beam - s->first) * s->rays;
     for (size_t k = 0; k < s->at->n_tau; k++) {
         for (int down = 0; down < 2; down++) {
             size_t first = first_slot(s, down);
             pps_run run = run_at(s, k, down);
             pps_theta_rays(&run, mode->k, mode->q, mode->p, ge + row + first,
-                           go + row + first, term + k * s->n_slots + first);
+                           go + row + first, beam + k * s->n_slots + first,
+                           term + k * s->n_slots + first);
         }
     }
 }
@@ -413,16 +415,12 @@ static void add_exponentials(field *s, const pps_order *order, size_t b,
     const double *c1 = solution->c1 + skip * padded + column;
     const double *c2 = solution->c2 + skip * padded + column;
     memset(s->source, 0, s->n_slots * sizeof *s->source);
-    pps_rays_sum(s->n_slots, s->n, s->n_slots, ge, go, solution->p + column,
-                 solution->r + column, padded, s->source);
+    pps_rays_sum(s->n_slots, s->n, ge, go, solution->p + column, solution->r + column,
+                 padded, s->source);
     for (size_t k = 0; k < s->at->n_tau; k++) {
-        for (int down = 0; down < 2; down++) {
-            size_t first = first_slot(s, down);
-            size_t from = (k * s->n + skip) * s->n_slots + first;
-            pps_rays_sum(down ? s->view->n_down : s->view->n_up, modes, s->n_slots,
-                         s->same + from, s->opposite + from, down ? c1 : c2,
-                         down ? c2 : c1, padded, term + k * s->n_slots + first);
-        }
+        size_t from = (k * s->n + skip) * s->n_slots;
+        pps_rays_sum(s->n_slots, modes, s->row[0] + from, s->row[1] + from, c1, c2,
+                     padded, term + k * s->n_slots);
         pps_rays_add_product(s->n_slots, s->source,
                              s->beam + b * s->rays + k * s->n_slots,
                              term + k * s->n_slots);

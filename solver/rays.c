@@ -23,75 +23,57 @@ PPS_CLONES void pps_mode_view_fill(size_t n, double signed_k, const double *rest
 }
 
 /* E1(t; k, c) = (e^(-k t) - e^(-c t))/(c - k) where the rates are apart; else with
- * sinh(y)/y, y = (c - k) t/2, which has no difference in it. So with E1(t; 0, k + c). */
-static inline void apart(const pps_mode_here *m, const double *restrict ect,
-                         const pps_mode_view *view, size_t at, double *restrict same,
-                         double *restrict opposite) {
-    for (size_t i = at; i < at + PPS_LANES; i++) {
-        same[i] = view->near_over[i] * (m->e - ect[i]);
-        opposite[i] = view->far_over[i] * (m->other * (1 - m->e * ect[i]));
-    }
-}
-
-static inline void together(const pps_mode_here *m, const pps_run *run,
-                            const pps_mode_view *view, size_t at,
-                            double *restrict same, double *restrict opposite) {
-    for (size_t i = at; i < at + PPS_LANES; i++) {
-        double roots = run->t * (m->root * run->root[i]);
-        double z = (run->c[i] - m->k) * run->t, sum = (run->c[i] + m->k) * run->t;
-        double near = view->near[i] * roots * lane_sinh_over(z * z / 4);
-        double far = view->far[i] * m->other * roots * lane_sinh_over(sum * sum / 4);
-        same[i] = z < 1 && z > -1 ? near : same[i];
-        opposite[i] = sum < 1 ? far : opposite[i];
-    }
-}
-
-PPS_CLONES void pps_mode_rays(const pps_run *run, const pps_mode_here *mode,
+ * sinh(y)/y, y = (c - k) t/2, which has no difference in it. So with E1(t; 0, k + c);
+ * (c + k) t < 1 implies |c - k| t < 1. */
+PPS_CLONES void pps_mode_rays(const pps_run *run, const pps_mode_here *m,
                               const pps_mode_view *view, double *same,
                               double *opposite) {
-    for (size_t at = 0; at < run->n; at += PPS_LANES) {
-        apart(mode, run->ect, view, at, same, opposite);
-        int close = 0; /* as (c + k) t < 1 implies |c - k| t < 1 */
-        for (size_t i = at; i < at + PPS_LANES; i++) {
-            double z = (run->c[i] - mode->k) * run->t;
-            close |= z < 1 && z > -1;
+    for (size_t i = 0; i < run->n; i += FOUR) {
+        four c = four_at(run->c + i), ect = four_at(run->ect + i);
+        four z = (c - m->k) * run->t, sum = (c + m->k) * run->t;
+        four x = four_at(view->near_over + i) * (m->e - ect);
+        four y = four_at(view->far_over + i) * (m->other * (1 - m->e * ect));
+        four_int close = four_within_one(z);
+        if (four_any(close)) {
+            four roots = run->t * (m->root * four_at(run->root + i));
+            four near = four_at(view->near + i) * roots * four_sinh_over(z * z / 4);
+            four far = four_at(view->far + i) * m->other * roots *
+                       four_sinh_over(sum * sum / 4);
+            x = four_choose(close, near, x);
+            y = four_choose(sum < 1, far, y);
         }
-        if (close) {
-            together(mode, run, view, at, same, opposite);
-        }
+        four_to(same + i, x);
+        four_to(opposite + i, y);
     }
 }
 
 PPS_CLONES void pps_beam_rays(const pps_run *run, double q, double e, double root,
                               double other, double *integral) {
-    for (size_t i = 0; i < run->n; i++) {
-        double c = run->c[i];
-        double part =
-            run->down ? lane_exp1(run->t, q, c, e, run->ect[i], root, run->root[i])
-                      : other * lane_exp1(run->t, 0, q + c, 1, e * run->ect[i], 1,
-                                          root * run->root[i]);
-        integral[i] = c * part;
+    four one = four_of(1), zero = four_of(0);
+    for (size_t i = 0; i < run->n; i += FOUR) {
+        four c = four_at(run->c + i), ect = four_at(run->ect + i);
+        four root_c = four_at(run->root + i);
+        four part = run->down ? four_exp1(run->t, four_of(q), c, four_of(e), ect,
+                                          four_of(root), root_c)
+                              : other * four_exp1(run->t, zero, q + c, one, e * ect,
+                                                  one, root * root_c);
+        four_to(integral + i, c * part);
     }
 }
 
-PPS_CLONES void pps_rays_sum(size_t n, size_t n_modes, size_t stride, const double *x,
-                             const double *y, const double *a, const double *b,
-                             size_t step, double *sum) {
+PPS_CLONES void pps_rays_sum(size_t n, size_t n_modes, const double *x, const double *y,
+                             const double *a, const double *b, size_t step,
+                             double *sum) {
     for (size_t at = 0; at < n; at += PPS_LANES) {
-        double block[PPS_LANES];
-        for (size_t l = 0; l < PPS_LANES; l++) {
-            block[l] = sum[at + l];
-        }
-        for (size_t j = 0; j < n_modes; j++) {
+        const double *xj = x + at, *yj = y + at;
+        four left = four_at(sum + at), right = four_at(sum + at + FOUR);
+        for (size_t j = 0; j < n_modes; j++, xj += n, yj += n) {
             double aj = a[j * step], bj = b[j * step];
-            const double *xj = x + j * stride + at, *yj = y + j * stride + at;
-            for (size_t l = 0; l < PPS_LANES; l++) {
-                block[l] += xj[l] * aj + yj[l] * bj;
-            }
+            left += four_at(xj) * aj + four_at(yj) * bj;
+            right += four_at(xj + FOUR) * aj + four_at(yj + FOUR) * bj;
         }
-        for (size_t l = 0; l < PPS_LANES; l++) {
-            sum[at + l] = block[l];
-        }
+        four_to(sum + at, left);
+        four_to(sum + at + FOUR, right);
     }
 }
 
@@ -102,85 +84,110 @@ PPS_CLONES void pps_rays_add_product(size_t n, const double *restrict x,
     }
 }
 
-/* Down: E2(t; k, q, c). Up, t to the bottom and tau to the top: what Theta does on from
- * here, E1(tau; k, q) E1(t; 0, k + c) + e^(-q tau) E2(t; 0, k + c, q + c). */
-PPS_CLONES static void theta_down(const pps_run *run, double k, double q, double p,
-                                  const double *restrict ge, const double *restrict go,
-                                  double *restrict sum) {
-    for (size_t i = 0; i < run->n; i++) {
-        double c = run->c[i];
-        sum[i] += p * (ge[i] + k * go[i]) * (c * lane_exp2(run->t, k, q, c));
+/* ---- resonance ---- */
+
+/* A resonant mode at a depth: Theta there and, upwards, on to the bottom; e^(-k t) and its
+ * root, t to the bottom; e^(-q tau). */
+typedef struct {
+    double k, q, p, theta, theta_on, ekt, root, eqt;
+} resonance;
+
+/* Down: E2(t; k, q, c) = (E1(t; k, q) - E1(t; q, c)) / (c - k) where c is apart from k;
+ * `beam` is c E1(t; q, c). */
+PPS_CLONES static void theta_down(const pps_run *run, const resonance *r,
+                                  const double *ge, const double *go,
+                                  const double *beam, double *sum) {
+    for (size_t i = 0; i < run->n; i += FOUR) {
+        four c = four_at(run->c + i), z = (c - r->k) * run->t;
+        four part = (c * r->theta - four_at(beam + i)) / (c - r->k);
+        four_int close = four_within_one(z);
+        if (four_any(close)) {
+            four near = c * four_exp2(run->t, four_of(r->k), four_of(r->q), c);
+            part = four_choose(close, near, part);
+        }
+        four source = r->p * (four_at(ge + i) + r->k * four_at(go + i));
+        four_to(sum + i, four_at(sum + i) + source * part);
     }
 }
 
-PPS_CLONES static void theta_up(const pps_run *run, double k, double q, double p,
-                                double theta, double eqt, const double *restrict ge,
-                                const double *restrict go, double *restrict sum) {
-    double t = run->t, ekt = lane_exp(-k * t), root = lane_exp(-k * t / 2);
-    for (size_t i = 0; i < run->n; i++) {
-        double c = run->c[i];
-        double fall =
-            lane_exp1(t, 0, k + c, 1, ekt * run->ect[i], 1, root * run->root[i]);
-        double rest = lane_exp2(t, 0, k + c, q + c);
-        sum[i] += p * (ge[i] + k * go[i]) * (c * (theta * fall + eqt * rest));
+/* Up, t to the bottom and tau to the top: what Theta does on from here,
+ * E1(tau; k, q) E1(t; 0, k + c) + e^(-q tau) E2(t; 0, k + c, q + c), the last as above with
+ * E1(t; k + c, q + c) = e^(-c t) E1(t; k, q). */
+PPS_CLONES static void theta_up(const pps_run *run, const resonance *r,
+                                const double *ge, const double *go, double *sum) {
+    four zero = four_of(0), one = four_of(1);
+    for (size_t i = 0; i < run->n; i += FOUR) {
+        four c = four_at(run->c + i), ect = four_at(run->ect + i);
+        four fall = four_exp1(run->t, zero, r->k + c, one, r->ekt * ect, one,
+                              r->root * four_at(run->root + i));
+        four part = (fall - ect * r->theta_on) / (r->q + c);
+        four_int close = (r->k + c) * run->t < 1;
+        if (four_any(close)) {
+            part =
+                four_choose(close, four_exp2(run->t, zero, r->k + c, r->q + c), part);
+        }
+        four ray = c * (r->theta * fall + r->eqt * part);
+        four source = r->p * (four_at(ge + i) + r->k * four_at(go + i));
+        four_to(sum + i, four_at(sum + i) + source * ray);
     }
 }
 
 void pps_theta_rays(const pps_run *run, double k, double q, double p, const double *ge,
-                    const double *go, double *sum) {
+                    const double *go, const double *beam, double *sum) {
+    resonance r = {.k = k, .q = q, .p = p};
     if (run->down) {
-        theta_down(run, k, q, p, ge, go, sum);
+        r.theta = pps_exp1(run->t, k, q);
+        theta_down(run, &r, ge, go, beam, sum);
     } else {
-        theta_up(run, k, q, p, pps_exp1(run->rest, k, q), exp(-q * run->rest), ge, go,
-                 sum);
+        r.theta = pps_exp1(run->rest, k, q);
+        r.theta_on = pps_exp1(run->t, k, q);
+        r.ekt = exp(-k * run->t);
+        r.root = exp(-k * run->t / 2);
+        r.eqt = exp(-q * run->rest);
+        theta_up(run, &r, ge, go, sum);
     }
 }
+
+/* ---- series ---- */
 
 PPS_CLONES void pps_series_source(size_t n, size_t stride, const double *restrict ge,
                                   const double *restrict go, const double *restrict a,
                                   const double *restrict b, double *restrict source) {
-    for (size_t d = 0; d < PPS_SERIES_TERMS; d++) {
-        double ad = a[d * PPS_LANES], bd = b[d * PPS_LANES];
-        double *restrict row = source + d * stride;
-        for (size_t i = 0; i < n; i++) {
-            row[i] += ge[i] * ad + go[i] * bd;
+    for (size_t i = 0; i < n; i += FOUR) {
+        four even = four_at(ge + i), odd = four_at(go + i);
+        for (size_t d = 0; d < PPS_SERIES_TERMS; d++) {
+            double *to = source + d * stride + i;
+            double ad = a[d * PPS_LANES], bd = b[d * PPS_LANES];
+            four_to(to, four_at(to) + (even * ad + odd * bd));
         }
     }
 }
 
 PPS_CLONES void pps_series_rays(size_t n, size_t stride, const double *moment,
                                 const double *source, double *sum) {
-    for (size_t at = 0; at < n; at += PPS_LANES) {
-        double block[PPS_LANES] = {0};
+    for (size_t i = 0; i < n; i += FOUR) {
+        four total = {0};
         for (size_t d = PPS_SERIES_TERMS; d-- > 0;) { /* from small to large */
-            for (size_t l = 0; l < PPS_LANES; l++) {
-                block[l] += moment[d * n + at + l] * source[d * stride + at + l];
-            }
+            total += four_at(moment + d * n + i) * four_at(source + d * stride + i);
         }
-        for (size_t l = 0; l < PPS_LANES; l++) {
-            sum[at + l] += block[l];
-        }
+        four_to(sum + i, four_at(sum + i) + total);
     }
 }
 
+/* ---- azimuth ---- */
+
 PPS_CLONES bool pps_add_order(size_t n, size_t n_phi, const double *cosine,
                               const double *term, double tolerance, double *value) {
-    double excess[PPS_LANES] = {0};
-    for (size_t p = 0; p < n_phi; p++) {
-        double *row = value + p * n;
-        for (size_t at = 0; at < n; at += PPS_LANES) {
-            for (size_t l = 0; l < PPS_LANES; l++) {
-                double new = row[at + l] + cosine[p] * term[at + l];
-                double over = fabs(term[at + l]) - tolerance * fabs(new);
-                row[at + l] = new;
-                excess[l] = over > excess[l] ? over : excess[l];
-            }
+    four excess = {0}; /* of a term over its tolerance */
+    for (size_t i = 0; i < n; i += FOUR) {
+        four t = four_at(term + i), size = four_abs(t);
+        double *to = value + i;
+        for (size_t p = 0; p < n_phi; p++, to += n) {
+            four sum = four_at(to) + cosine[p] * t;
+            four above = size - tolerance * four_abs(sum);
+            four_to(to, sum);
+            excess = four_choose(above > excess, above, excess);
         }
     }
-    for (int l = 0; l < PPS_LANES; l++) {
-        if (excess[l] > 0) {
-            return false;
-        }
-    }
-    return true;
+    return !four_any(excess > 0);
 }

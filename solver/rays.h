@@ -50,17 +50,17 @@ void pps_mode_rays(const pps_run *run, const pps_mode_here *mode,
 void pps_beam_rays(const pps_run *run, double q, double e, double root, double other,
                    double *integral);
 
-/* sum[i] += over j of x[j * stride + i] a[j * step] + y[j * stride + i] b[j * step]. */
-void pps_rays_sum(size_t n, size_t n_modes, size_t stride, const double *x,
-                  const double *y, const double *a, const double *b, size_t step,
-                  double *sum);
+/* sum[i] += over j of x[j * n + i] a[j * step] + y[j * n + i] b[j * step]. */
+void pps_rays_sum(size_t n, size_t n_modes, const double *x, const double *y,
+                  const double *a, const double *b, size_t step, double *sum);
 
 /* sum[i] += x[i] y[i]. */
 void pps_rays_add_product(size_t n, const double *x, const double *y, double *sum);
 
-/* sum[i] += (ge + k go) p times the ray integral of Theta(.; k, q). */
+/* sum[i] += (ge + k go) p times the ray integral of Theta(.; k, q); beam: that of
+ * e^(-q tau), from pps_beam_rays. */
 void pps_theta_rays(const pps_run *run, double k, double q, double p, const double *ge,
-                    const double *go, double *sum);
+                    const double *go, const double *beam, double *sum);
 
 /* source[d * stride + i] += ge[i] a[d * PPS_LANES] + go[i] b[d * PPS_LANES] for every term
  * d of a series. */

@@ -5,38 +5,38 @@
 
 #include "core/lanes.h"
 
-PPS_CLONES void pps_series_expand(const pps_series *series, size_t first, double step,
-                                  double k, double *a, double *b) {
-    double e[PPS_LANES]; /* of e^(-q tau) */
-    for (int l = 0; l < PPS_LANES; l++) {
-        a[l] = series->psi[first + (size_t)l];
-        b[l] = series->phi[first + (size_t)l];
-        e[l] = series->beam[first + (size_t)l];
-    }
-    for (int d = 0; d + 1 < PPS_SERIES_TERMS; d++) {
-        double h = step / (d + 1);
-        double *restrict a_next = a + (d + 1) * PPS_LANES;
-        double *restrict b_next = b + (d + 1) * PPS_LANES;
-        const double *a_here = a + d * PPS_LANES, *b_here = b + d * PPS_LANES;
-        for (int l = 0; l < PPS_LANES; l++) {
-            size_t i = first + (size_t)l;
-            a_next[l] = h * (series->beta[i] * e[l] - b_here[l]);
-            b_next[l] = h * (series->alpha[i] * e[l] - k * k * a_here[l]);
-            e[l] *= -h * series->q[i];
-        }
+/* Lanes `at` to `at` + 3 of a block. */
+PPS_LANE void expand(const pps_series *series, size_t first, size_t at, double step,
+                          double k2, double *a, double *b) {
+    size_t i = first + at;
+    four q = four_at(series->q + i), e = four_at(series->beam + i); /* of e^(-q tau) */
+    four alpha = four_at(series->alpha + i), beta = four_at(series->beta + i);
+    four psi = four_at(series->psi + i), phi = four_at(series->phi + i);
+    for (size_t d = 0; d < PPS_SERIES_TERMS; d++) {
+        double h = step * (1.0 / (double)(d + 1));
+        four psi_next = h * (beta * e - phi);
+        four_to(a + d * PPS_LANES + at, psi);
+        four_to(b + d * PPS_LANES + at, phi);
+        phi = h * (alpha * e - k2 * psi);
+        psi = psi_next;
+        e = -h * (e * q);
     }
 }
 
+PPS_CLONES void pps_series_expand(const pps_series *series, size_t first, double step,
+                                  double k, double *restrict a, double *restrict b) {
+    expand(series, first, 0, step, k * k, a, b);
+    expand(series, first, FOUR, step, k * k, a, b);
+}
+
 PPS_CLONES void pps_series_value(const double *a, double u, double *value) {
-    double sum[PPS_LANES] = {0};
+    four left = {0}, right = {0};
     for (int d = PPS_SERIES_TERMS; d-- > 0;) {
-        for (int l = 0; l < PPS_LANES; l++) {
-            sum[l] = sum[l] * u + a[d * PPS_LANES + l];
-        }
+        left = left * u + four_at(a + d * PPS_LANES);
+        right = right * u + four_at(a + d * PPS_LANES + FOUR);
     }
-    for (int l = 0; l < PPS_LANES; l++) {
-        value[l] = sum[l];
-    }
+    four_to(value, left);
+    four_to(value + FOUR, right);
 }
 
 /* m_d(z) = z int_0^1 v^d e^(-z (1 - v)) dv obeys m_d = 1 - (d/z) m_(d-1). Upwards that
@@ -44,34 +44,22 @@ PPS_CLONES void pps_series_value(const double *a, double u, double *value) {
  * damped out wherever d > z. */
 enum { START_DOWN = 80 };
 
-static inline void block_moments(double share, const double *z, const double *first,
-                                 double *moment, size_t padded) {
-    double up[PPS_SERIES_TERMS][PPS_LANES], down[PPS_LANES];
-    for (int l = 0; l < PPS_LANES; l++) {
-        up[0][l] = first[l];
-        down[l] = z[l] / (z[l] + START_DOWN + 1);
-    }
+PPS_LANE void moments_of(four z, four first, double share, size_t padded,
+                              double *moment) {
+    four up[PPS_SERIES_TERMS] = {first}, down = z / (z + (START_DOWN + 1));
     for (int d = 1; d < PPS_SERIES_TERMS; d++) {
-        for (int l = 0; l < PPS_LANES; l++) {
-            up[d][l] = 1 - d * up[d - 1][l] / z[l];
-        }
+        up[d] = 1 - d * up[d - 1] / z;
     }
     for (int d = START_DOWN; d >= PPS_SERIES_TERMS; d--) {
-        for (int l = 0; l < PPS_LANES; l++) {
-            down[l] = z[l] * (1 - down[l]) * (1.0 / d);
-        }
+        down = z * (1 - down) * (1.0 / d);
     }
     for (int d = PPS_SERIES_TERMS - 1; d > 0; d--) {
-        for (int l = 0; l < PPS_LANES; l++) {
-            up[d][l] = d > z[l] ? down[l] : up[d][l];
-            down[l] = z[l] * (1 - down[l]) * (1.0 / d);
-        }
+        up[d] = four_choose((double)d > z, down, up[d]);
+        down = z * (1 - down) * (1.0 / d);
     }
     double power = 1;
-    for (int d = 0; d < PPS_SERIES_TERMS; d++) {
-        for (int l = 0; l < PPS_LANES; l++) {
-            moment[(size_t)d * padded + (size_t)l] = power * up[d][l];
-        }
+    for (size_t d = 0; d < PPS_SERIES_TERMS; d++) {
+        four_to(moment + d * padded, power * up[d]);
         power *= share;
     }
 }
@@ -79,14 +67,10 @@ static inline void block_moments(double share, const double *z, const double *fi
 PPS_CLONES void pps_series_moments(size_t padded, double w, double t, const double *c,
                                    const double *ect, const double *root,
                                    double *moment) {
-    for (size_t at = 0; at < padded; at += PPS_LANES) {
-        double z[PPS_LANES], first[PPS_LANES]; /* first: 1 - e^(-z) */
-        for (int l = 0; l < PPS_LANES; l++) {
-            size_t i = at + (size_t)l;
-            z[l] = c[i] * t;
-            double near = z[l] * root[i] * lane_sinh_over(z[l] * z[l] / 4);
-            first[l] = z[l] < 1 ? near : 1 - ect[i];
-        }
-        block_moments(t / w, z, first, moment + at, padded);
+    for (size_t i = 0; i < padded; i += FOUR) {
+        four z = four_at(c + i) * t; /* then 1 - e^(-z) */
+        four near = z * four_at(root + i) * four_sinh_over(z * z / 4);
+        four first = four_choose(z < 1, near, 1 - four_at(ect + i));
+        moments_of(z, first, t / w, padded, moment + i);
     }
 }

@@ -29,7 +29,7 @@ typedef struct pps_series {
 /* a[d * PPS_LANES + lane] and b likewise, for the block of beams that starts at `first`.
  * step = w from the top, -w from the bottom. */
 void pps_series_expand(const pps_series *series, size_t first, double step, double k,
-                       double *a, double *b);
+                       double *restrict a, double *restrict b);
 
 /* sum over d of a_d u^d, a block of beams. */
 void pps_series_value(const double *a, double u, double *value);

@@ -149,14 +149,17 @@ static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radian
     }
     pps_grid at = {N_SWEEP_DEPTHS, SWEEP_STREAMS, N_PHI, tau, mu, s->phi};
     require(pps_dom_set_thickness(dom, thickness));
+    double mu0[N_MU0];
     for (int i = 0; i < N_MU0; i++) {
-        require(pps_dom_solve(dom, 0.08 + 0.1 * i));
-        require(pps_dom_flux(dom, N_SWEEP_DEPTHS, tau, *flux));
-        *flux += N_SWEEP_DEPTHS;
-        if (s->radiances) {
-            require(pps_dom_radiance(dom, &at, *radiance));
-            *radiance += (size_t)N_SWEEP_DEPTHS * SWEEP_STREAMS * N_PHI;
-        }
+        mu0[i] = 0.08 + 0.1 * i;
+    }
+    require(pps_dom_set_directions(dom, s->radiances ? SWEEP_STREAMS : 0, mu));
+    require(pps_dom_solve_beams(dom, N_MU0, mu0));
+    require(pps_dom_flux(dom, N_SWEEP_DEPTHS, tau, *flux));
+    *flux += N_MU0 * N_SWEEP_DEPTHS;
+    if (s->radiances) {
+        require(pps_dom_radiance(dom, &at, *radiance));
+        *radiance += (size_t)N_MU0 * N_SWEEP_DEPTHS * SWEEP_STREAMS * N_PHI;
     }
 }
 
