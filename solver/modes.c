@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/lanes.h"
 #include "core/legendre.h"
 #include "core/vector.h"
 #include "solver/lapack.h"
@@ -78,24 +79,53 @@ static void node_functions(const pps_discrete *d, int m, double *p) {
     }
 }
 
-/* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
- * triangle, from row and column `skip` on. */
-static void one_minus_scattering(const pps_discrete *d, int m, int first, int skip,
-                                 const double *p, double *a) {
-    int n = d->n;
-    for (int j = skip; j < n; j++) {
-        for (int i = j; i < n; i++) {
-            a[i + j * n] = i == j;
+/* y -= factor x */
+static inline void subtract(int n, double factor, const double *restrict x,
+                            double *restrict y) {
+    for (int i = 0; i < n; i++) {
+        y[i] -= factor * x[i];
+    }
+}
+
+/* Rows i to i + rows - 1 of column j of 1 - sum of factor_r p_r p_r^T; p_r is column
+ * 2 r of p. */
+PPS_LANE void scattering_rows(size_t n, size_t n_terms, const double *factor,
+                              const double *p, size_t i, size_t j, size_t rows,
+                              double *a) {
+    double sum[FOUR] = {0};
+    if (rows == FOUR) {
+        four total = {0};
+        for (size_t r = 0; r < n_terms; r++) {
+            total += factor[r] * four_at(p + 2 * r * n + i);
+        }
+        four_to(sum, total);
+    } else {
+        for (size_t r = 0; r < n_terms; r++) {
+            for (size_t l = 0; l < rows; l++) {
+                sum[l] += factor[r] * p[2 * r * n + i + l];
+            }
         }
     }
-    for (int l = first; l < d->n_moments; l += 2) {
-        const double *pl = p + (size_t)(l - m) * (size_t)n;
-        double factor = d->albedo * d->strength[l];
-        for (int j = skip; j < n; j++) {
-            double scaled = factor * pl[j];
-            for (int i = j; i < n; i++) {
-                a[i + j * n] -= scaled * pl[i];
-            }
+    for (size_t l = 0; l < rows; l++) {
+        a[i + l + j * n] = (i + l == j) - sum[l];
+    }
+}
+
+/* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
+ * triangle (and a little more), from row and column `skip` on. */
+PPS_CLONES static void one_minus_scattering(const pps_discrete *d, int m, int first,
+                                            int skip, const double *p, double *a) {
+    size_t n = (size_t)d->n;
+    const double *pl = p + (size_t)(first - m) * n;
+    double factor[PPS_STREAMS_MAX / 2];
+    for (size_t j = (size_t)skip; j < n; j++) {
+        size_t n_terms = 0;
+        for (int l = first; l < d->n_moments; l += 2, n_terms++) {
+            factor[n_terms] = d->albedo * d->strength[l] * pl[2 * n_terms * n + j];
+        }
+        for (size_t i = j / FOUR * FOUR; i < n; i += FOUR) {
+            size_t rows = n - i < FOUR ? n - i : FOUR;
+            scattering_rows(n, n_terms, factor, pl, i, j, rows, a);
         }
     }
 }
@@ -144,10 +174,10 @@ static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
     return true;
 }
 
-/* B = R diag(1/mu) L1. For m = 0, R = diag(sqrt(1 - albedo), C^T) H made triangular by
- * an orthogonal factor from the left, which leaves K and Y alone; so that B is graded
- * from large to small like the nodes. */
-static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
+/* B = R diag(1/mu) L1. For m = 0, R = diag(sqrt(1 - albedo), C^T) H, made triangular by
+ * an orthogonal factor from the left, which leaves K and Y alone, where the nodes are
+ * graded: so that B is graded from large to small like them. */
+PPS_CLONES static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
     int n = d->n;
     double *r = s->b;
     memset(r, 0, (size_t)n * (size_t)n * sizeof *r);
@@ -159,20 +189,22 @@ static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
     if (m == 0) {
         const double *h = s->vector + n;
         r[0] = sqrt(d->co_albedo);
-        for (int i = 0; i < n; i++) { /* rows of R <- rows times H */
-            double dot = 0;
-            for (int j = 0; j < n; j++) {
-                dot += r[i + j * n] * h[j];
-            }
-            for (int j = 0; j < n; j++) {
-                r[i + j * n] -= 2 * dot * h[j];
-            }
+        double *rh = s->vector + 2 * n;
+        memset(rh, 0, (size_t)n * sizeof *rh);
+        for (int j = 0; j < n; j++) { /* R <- R H */
+            subtract(n, -h[j], r + j * n, rh);
         }
-        pps_qr_r(n, r, s->work);
+        for (int j = 0; j < n; j++) {
+            subtract(n, 2 * h[j], rh, r + j * n);
+        }
+        if (!d->squared) {
+            pps_qr_r(n, r, s->work);
+        }
     }
     for (int j = 0; j < n; j++) {
-        for (int i = 0; i <= j; i++) {
-            r[i + j * n] /= d->mu[j];
+        double over = 1 / d->mu[j];
+        for (int i = 0; i < n; i++) {
+            r[i + j * n] *= over;
         }
     }
     pps_multiply(false, n, n, n, r, n, s->lower, n, s->y, n);
@@ -231,7 +263,7 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     int n = d->n, m = order->m;
     double *ly = s->b, *z = s->y; /* L1 Y; L1^-T Y, which takes the place of Y */
     memcpy(ly, s->y, (size_t)n * (size_t)n * sizeof *ly);
-    pps_lower_times(n, s->lower, false, n, ly);
+    pps_lower_times(n, s->lower, n, ly);
     pps_lower_solve(n, s->lower, true, n, z);
     for (int j = 0; j < n; j++) {
         double sum = 0;
@@ -241,20 +273,27 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
         order->flux_s[j] = sum;
     }
     /* V = (p_l / mu)^T L1 Y for l + m even; W = p_l^T L1^-T Y for odd. */
+    double *row = s->work;
     node_functions(d, m, s->p);
     int stride = 2 * n;
     pps_multiply(true, order->n_odd, n, n, s->p + n, stride, z, n, order->w,
                  order->n_odd > 0 ? order->n_odd : 1);
+    for (int i = 0; i < n; i++) {
+        row[i] = 1 / d->mu[i];
+    }
     for (int r = 0; r < order->n_even; r++) {
         for (int i = 0; i < n; i++) {
-            s->p[i + r * stride] /= d->mu[i];
+            s->p[i + r * stride] *= row[i];
         }
     }
     pps_multiply(true, order->n_even, n, n, s->p, stride, ly, n, order->v,
                  order->n_even);
+    for (int i = 0; i < n; i++) {
+        row[i] = 1 / sqrt(d->mu[i]);
+    }
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            ly[i + j * n] /= sqrt(d->mu[i]); /* X */
+            ly[i + j * n] *= row[i]; /* X */
         }
     }
     pps_multiply(true, n, n, n, ly, n, ly, n, order->gram, n);
