@@ -21,7 +21,7 @@
 #include "core/vector.h"
 #include "solver/lapack.h"
 #include "solver/order.h"
-#include "solver/series.h"
+#include "core/series.h"
 
 /* In slabs thinner than this a mode with k w < 1 is a series from one edge, which costs it
  * this factor of its accuracy at the other; in thicker ones it is a special mode. */

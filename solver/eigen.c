@@ -1,5 +1,8 @@
 /* Small symmetric eigenproblems: Householder reduction and implicit QL.
  *
+ * The solver's matrices have their large elements first. The reduction wants them so; QL
+ * wants them last, so the tridiagonal matrix is turned round in between.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/eigen.h"
 
@@ -93,6 +96,27 @@ PPS_LANE void reduce(work *w) {
     w->e[n - 1] = 0;
 }
 
+/* Last row and column first: d, e and the columns of Q. */
+PPS_LANE void turn_round(work *w) {
+    size_t n = w->n;
+    for (size_t i = 0; i < n / 2; i++) {
+        double d = w->d[i];
+        w->d[i] = w->d[n - 1 - i];
+        w->d[n - 1 - i] = d;
+        for (size_t row = 0; row < w->rows; row += FOUR) {
+            double *x = w->q + i * w->rows + row, *y = w->q + (n - 1 - i) * w->rows + row;
+            four keep = four_at(x);
+            four_to(x, four_at(y));
+            four_to(y, keep);
+        }
+    }
+    for (size_t i = 0; i + 1 < n - 1 - i; i++) {
+        double e = w->e[i];
+        w->e[i] = w->e[n - 2 - i];
+        w->e[n - 2 - i] = e;
+    }
+}
+
 /* Q, the product of the reflections, from the last to the first. */
 PPS_LANE void accumulate(work *w) {
     size_t n = w->n, rows = w->rows;
@@ -110,17 +134,34 @@ PPS_LANE void accumulate(work *w) {
     }
 }
 
-/* Rotations i = m - 1 down to l, each of columns i and i + 1 of Q. */
-PPS_LANE void rotate(work *w, size_t l, size_t m, const double *c, const double *s) {
-    for (size_t at = 0; at < w->rows; at += FOUR) {
-        double *q = w->q + at;
-        four carried = four_at(q + m * w->rows);
-        for (size_t i = m; i-- > l;) {
-            four here = four_at(q + i * w->rows);
-            four_to(q + (i + 1) * w->rows, s[i] * here + c[i] * carried);
-            carried = c[i] * here - s[i] * carried;
+/* Rotations i = m - 1 down to l, each of columns i and i + 1 of Q: `fours` blocks of rows
+ * at a time, since each rotation waits for the one before. */
+PPS_LANE void rotate_rows(double *q, size_t rows, size_t fours, size_t l, size_t m,
+                          const double *c, const double *s) {
+    four carried[4];
+    for (size_t k = 0; k < fours; k++) {
+        carried[k] = four_at(q + m * rows + k * FOUR);
+    }
+    for (size_t i = m; i-- > l;) {
+        double *column = q + i * rows;
+        for (size_t k = 0; k < fours; k++) {
+            four here = four_at(column + k * FOUR);
+            four_to(column + rows + k * FOUR, s[i] * here + c[i] * carried[k]);
+            carried[k] = c[i] * here - s[i] * carried[k];
         }
-        four_to(q + l * w->rows, carried);
+    }
+    for (size_t k = 0; k < fours; k++) {
+        four_to(q + l * rows + k * FOUR, carried[k]);
+    }
+}
+
+PPS_LANE void rotate(work *w, size_t l, size_t m, const double *c, const double *s) {
+    size_t at = 0;
+    for (; at + 4 * FOUR <= w->rows; at += 4 * FOUR) {
+        rotate_rows(w->q + at, w->rows, 4, l, m, c, s);
+    }
+    for (; at < w->rows; at += 2 * FOUR) {
+        rotate_rows(w->q + at, w->rows, 2, l, m, c, s);
     }
 }
 
@@ -141,7 +182,7 @@ PPS_LANE void sweep(work *w, size_t l, size_t m) {
     double g = d[m] - d[l] + e[l] / (half + (half < 0 ? -root : root));
     double s = 1, c = 1, p = 0;
     for (size_t i = m; i-- > l;) {
-        double f = s * e[i], b = c * e[i], r = sqrt(f * f + g * g);
+        double f = s * e[i], b = c * e[i], h = f * f + g * g, r = sqrt(h);
         e[i + 1] = r;
         if (r == 0) { /* it fell apart on the way: deflate */
             d[i + 1] -= p;
@@ -169,6 +210,7 @@ PPS_LANE void sweep(work *w, size_t l, size_t m) {
 PPS_CLONES static bool diagonalise(work *w) {
     reduce(w);
     accumulate(w);
+    turn_round(w);
     for (size_t l = 0; l < w->n; l++) {
         size_t m;
         for (int sweeps = 0; (m = block_end(w, l)) > l; sweeps++) {
@@ -184,7 +226,7 @@ PPS_CLONES static bool diagonalise(work *w) {
 bool pps_eigen_small(int order, double *a, double *value, double *y) {
     work w;
     w.n = (size_t)order;
-    w.rows = (w.n + FOUR - 1) / FOUR * FOUR;
+    w.rows = pps_padded(w.n);
     for (size_t j = 0; j < w.n; j++) {
         memcpy(w.a + j * w.rows, a + j * w.n, w.n * sizeof *a);
         memset(w.a + j * w.rows + w.n, 0, (w.rows - w.n) * sizeof *a);

@@ -8,7 +8,7 @@
 #include "core/hemisphere.h"
 #include "core/lanes.h"
 #include "solver/dom.h"
-#include "solver/series.h"
+#include "core/series.h"
 
 static const double PI = 3.14159265358979323846;
 

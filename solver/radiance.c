@@ -22,7 +22,7 @@
 #include "core/vector.h"
 #include "solver/dom.h"
 #include "solver/rays.h"
-#include "solver/series.h"
+#include "core/series.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -7,7 +7,7 @@
 
 #include "core/expdiff.h"
 #include "core/lanes.h"
-#include "solver/series.h"
+#include "core/series.h"
 
 PPS_CLONES void pps_mode_view_fill(size_t n, double signed_k, const double *restrict c,
                                    const double *restrict ge, const double *restrict go,

@@ -1,7 +1,7 @@
 /* Power series of modes and their ray integrals: vector loops.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/series.h"
+#include "core/series.h"
 
 #include "core/lanes.h"
 

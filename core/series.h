@@ -12,8 +12,8 @@
  * Reference: docs/theory.md section 5.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef PPS_SOLVER_SERIES_H
-#define PPS_SOLVER_SERIES_H
+#ifndef PPS_CORE_SERIES_H
+#define PPS_CORE_SERIES_H
 
 #include <stddef.h>
 
