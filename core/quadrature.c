@@ -12,13 +12,13 @@
 
 #include "core/vector.h"
 
-enum { MOST = PPS_STREAMS_MAX / 4 }; /* nodes on one side of the middle */
+enum { BLOCK = 64 }; /* nodes handled together */
 
 /* P_n(cos theta) and sin(theta) times its derivative in theta, for many u = 1 - cos theta
  * at once. */
 PPS_CLONES static void legendre_theta(int n, size_t n_nodes, const double *restrict u,
                                       double *restrict p, double *restrict slope) {
-    double difference[MOST];
+    double difference[BLOCK];
     for (size_t i = 0; i < n_nodes; i++) {
         p[i] = 1;
         difference[i] = 0;
@@ -36,32 +36,43 @@ PPS_CLONES static void legendre_theta(int n, size_t n_nodes, const double *restr
     }
 }
 
-void pps_gauss_unit(int n, double *node, double *weight) {
+/* Nodes and weights `first` to first + count - 1 of those below 1/2, and their mirrors. */
+static void gauss_block(int n, size_t first, size_t count, double *node,
+                        double *weight) {
     const double pi = 3.14159265358979323846;
-    size_t half = (size_t)(n + 1) / 2;
-    double theta[MOST], u[MOST], sine[MOST], p[MOST], slope[MOST];
-    for (size_t i = 0; i < half; i++) {
-        theta[i] = pi * ((double)i + 0.75) / (n + 0.5);
+    double theta[BLOCK], u[BLOCK], sine[BLOCK], p[BLOCK], slope[BLOCK];
+    size_t last = (size_t)n - 1;
+    for (size_t i = 0; i < count; i++) {
+        theta[i] = pi * ((double)(first + i) + 0.75) / (n + 0.5);
     }
     for (int step = 0;; step++) { /* quadratic from 1e-2 / n^2 on */
-        for (size_t i = 0; i < half; i++) {
+        for (size_t i = 0; i < count; i++) {
             double s = sin(theta[i] / 2), c = cos(theta[i] / 2);
-            node[i] = s * s; /* (1 - x)/2 */
-            node[(size_t)n - 1 - i] = (size_t)n - 1 - i == i ? 0.5 : c * c;
+            size_t low = first + i, high = last - low;
+            node[low] = s * s; /* (1 - x)/2 */
+            node[high] = high == low ? 0.5 : c * c;
             sine[i] = 2 * s * c;
-            u[i] = 2 * node[i];
+            u[i] = 2 * s * s;
         }
-        legendre_theta(n, half, u, p, slope);
+        legendre_theta(n, count, u, p, slope);
         if (step == 4) {
             break;
         }
-        for (size_t i = 0; i < half; i++) {
+        for (size_t i = 0; i < count; i++) {
             theta[i] -= p[i] * sine[i] / slope[i];
         }
     }
-    for (size_t i = 0; i < half; i++) {
+    for (size_t i = 0; i < count; i++) {
         double dp = slope[i] / sine[i];
-        weight[i] = weight[(size_t)n - 1 - i] = 1 / (dp * dp);
+        weight[first + i] = weight[last - (first + i)] = 1 / (dp * dp);
+    }
+}
+
+void pps_gauss_unit(int n, double *node, double *weight) {
+    size_t half = (size_t)(n + 1) / 2;
+    for (size_t first = 0; first < half; first += BLOCK) {
+        size_t left = half - first;
+        gauss_block(n, first, left < BLOCK ? left : BLOCK, node, weight);
     }
 }
 

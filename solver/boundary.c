@@ -38,6 +38,25 @@ static bool factorise(int n, double *a) {
     return true;
 }
 
+/* What a mode needs of the thickness, from e = e^(-k w) where k w >= 1. */
+static void mode_thickness(pps_order *order, int j, double w) {
+    double k = order->k[j], e = k > 0 ? exp(-k * w) : 0;
+    bool small = isfinite(w) && k * w < 1;
+    order->decay[j] = e;
+    order->n_small += small;
+    if (small) {
+        order->tanh[j] = pps_k_tanh(k, w / 2);
+        order->coth[j] = pps_k_coth(k, w / 2);
+        order->csch[j] = pps_2k_csch(k, w);
+        order->sum_over[j] = 0; /* of exponentials, which it is not made of */
+        return;
+    }
+    order->tanh[j] = k * ((1 - e) / (1 + e));
+    order->coth[j] = k * ((1 + e) / (1 - e));
+    order->sum_over[j] = 1 / ((1 - e) * (1 + e));
+    order->csch[j] = 4 * k * e * order->sum_over[j];
+}
+
 pps_status pps_order_set_thickness(pps_order *order, double thickness) {
     int n = order->n;
     size_t nn = (size_t)n * (size_t)n;
@@ -45,14 +64,7 @@ pps_status pps_order_set_thickness(pps_order *order, double thickness) {
     memcpy(order->odd, order->gram, nn * sizeof *order->odd);
     order->n_small = 0;
     for (int j = 0; j < n; j++) {
-        double k = order->k[j], kw = k > 0 ? k * thickness : 0;
-        bool half_space = isinf(thickness);
-        order->tanh[j] = half_space ? k : pps_k_tanh(k, thickness / 2);
-        order->coth[j] = half_space ? k : pps_k_coth(k, thickness / 2);
-        order->csch[j] = pps_2k_csch(k, thickness);
-        order->decay[j] = k > 0 ? exp(-kw) : 0;
-        order->sum_over[j] = half_space ? 1 : -1 / expm1(-2 * kw);
-        order->n_small += !half_space && kw < 1;
+        mode_thickness(order, j, thickness);
         order->even[j + j * n] += order->tanh[j];
         order->odd[j + j * n] += order->coth[j];
     }

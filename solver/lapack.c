@@ -9,6 +9,7 @@
 #include <cblas.h>
 #include <lapacke.h>
 
+#include "core/lanes.h"
 #include "solver/eigen.h"
 
 size_t pps_lapack_work(int n) {
@@ -26,26 +27,32 @@ static void clear_upper(int n, double *a) {
 /* Calls of LAPACK and BLAS cost as much as the work itself at a few unknowns. */
 enum { SMALL = 16 };
 
-static bool small_cholesky(int n, double *a) {
+PPS_CLONES static bool small_cholesky(int n, double *a) {
+    double l[SMALL * SMALL]; /* columns padded, so that blocks stay inside */
     for (int j = 0; j < n; j++) {
-        double *column = a + j * n;
-        for (int k = 0; k < j; k++) {
-            const double *before = a + k * n;
-            double factor = before[j];
-            for (int i = j; i < n; i++) {
-                column[i] -= factor * before[i];
+        memset(l + j * SMALL, 0, SMALL * sizeof *l);
+        memcpy(l + j * SMALL + j, a + j + j * n, (size_t)(n - j) * sizeof *l);
+    }
+    for (int j = 0; j < n; j++) {
+        double *column = l + j * SMALL;
+        for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
+            four sum = four_at(column + i);
+            for (int k = 0; k < j; k++) {
+                sum -= l[j + k * SMALL] * four_at(l + i + k * SMALL);
             }
+            four_to(column + i, sum);
         }
         if (!(column[j] > 0)) {
             return false;
         }
         double root = sqrt(column[j]), over = 1 / root;
-        column[j] = root;
-        for (int i = j + 1; i < n; i++) {
-            column[i] *= over;
+        for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
+            four_to(column + i, four_at(column + i) * over);
         }
+        memset(a + j * n, 0, (size_t)j * sizeof *a);
+        memcpy(a + j + j * n, column + j, (size_t)(n - j) * sizeof *a);
+        a[j + j * n] = root;
     }
-    clear_upper(n, a);
     return true;
 }
 

@@ -42,7 +42,7 @@ typedef struct {
     double *row[2];              /* n_tau x n rows: what a c1, a c2 of 1 gives */
     double *moment;              /* n_tau x PPS_SERIES_TERMS rows */
     double *legendre;            /* n_moments rows */
-    double *cosine;              /* n_phi */
+    double *angle, *cosine;      /* n_phi: azimuth within +-180; cos(m phi) */
     double *beam;                /* n_beams x rays: the beam's ray integral */
     double *source;              /* a row */
     double *series;              /* PPS_LANES beams x PPS_SERIES_TERMS rows */
@@ -85,6 +85,7 @@ static size_t field_layout(field *s, double *memory) {
         {&s->row[1], n_tau * n * row},
         {&s->moment, n_tau * PPS_SERIES_TERMS * row},
         {&s->legendre, (size_t)d->n_moments * row},
+        {&s->angle, s->at->n_phi},
         {&s->cosine, s->at->n_phi},
         {&s->beam, s->n_beams * rays},
         {&s->source, row},
@@ -231,7 +232,8 @@ PPS_CLONES static void spread_source(size_t n_tau, size_t n,
 static void first_light(field *s) {
     const pps_beams *beams = &s->dom->beams;
     for (size_t i = 0; i < s->at->n_phi; i++) {
-        s->cosine[i] = pps_cos_degrees(s->at->phi[i]);
+        s->angle[i] = remainder(s->at->phi[i], 360);
+        s->cosine[i] = pps_cos_degrees(s->angle[i]);
     }
     for (size_t b = 0; b < s->n_beams; b++) {
         double *value = s->value + b * s->at->n_phi * s->rays;
@@ -294,14 +296,17 @@ static void mode_rows(field *s, const pps_order *order, const double *ge,
             size_t n = down ? s->view->n_down : s->view->n_up;
             pps_mode_view_fill(n, down ? order->k[j] : -order->k[j], s->view->c + first, ge + row,
                                go + row, s->near, s->near_over, s->far, s->far_over);
-            for (size_t k = 0; k < s->at->n_tau; k++) {
-                pps_run run = run_at(s, k, down);
-                size_t i = k * s->n + j, to = i * s->n_slots + first;
-                pps_mode_here here = {order->k[j], s->mode[down ? 0 : 2][i],
-                                      s->mode[down ? 1 : 3][i],
-                                      s->mode[down ? 2 : 0][i]};
-                pps_mode_rays(&run, &here, &view, s->row[!down] + to, s->row[down] + to);
-            }
+            pps_runs runs = {n,
+                             s->at->n_tau,
+                             s->n_slots,
+                             down ? s->tau : s->rest,
+                             s->view->c + first,
+                             s->ect + first,
+                             s->root + first};
+            pps_mode_here here = {order->k[j], s->n, s->mode[down ? 0 : 2] + j,
+                                  s->mode[down ? 1 : 3] + j, s->mode[down ? 2 : 0] + j};
+            pps_mode_rays(&runs, &here, &view, s->n * s->n_slots, s->row[!down] + row,
+                          s->row[down] + row);
         }
     }
 }
@@ -460,7 +465,7 @@ static void order_terms(field *s, const pps_order *order) {
 static void add_order(field *s, int m) {
     const pps_grid *at = s->at;
     for (size_t i = 0; i < at->n_phi; i++) {
-        s->cosine[i] = pps_cos_degrees(m * remainder(at->phi[i], 360));
+        s->cosine[i] = pps_cos_degrees(m * s->angle[i]);
     }
     for (size_t b = 0; b < s->n_beams; b++) {
         if (is_running(s, b)) {

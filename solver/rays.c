@@ -25,25 +25,43 @@ PPS_CLONES void pps_mode_view_fill(size_t n, double signed_k, const double *rest
 /* E1(t; k, c) = (e^(-k t) - e^(-c t))/(c - k) where the rates are apart; else with
  * sinh(y)/y, y = (c - k) t/2, which has no difference in it. So with E1(t; 0, k + c);
  * (c + k) t < 1 implies |c - k| t < 1. */
-PPS_CLONES void pps_mode_rays(const pps_run *run, const pps_mode_here *m,
-                              const pps_mode_view *view, double *same,
-                              double *opposite) {
-    for (size_t i = 0; i < run->n; i += FOUR) {
-        four c = four_at(run->c + i), ect = four_at(run->ect + i);
-        four z = (c - m->k) * run->t, sum = (c + m->k) * run->t;
-        four x = four_at(view->near_over + i) * (m->e - ect);
-        four y = four_at(view->far_over + i) * (m->other * (1 - m->e * ect));
+PPS_LANE void mode_row(const pps_runs *runs, const pps_mode_here *m,
+                       const pps_mode_view *view, size_t depth, double *same,
+                       double *opposite) {
+    double t = runs->t[depth], e = m->e[depth * m->step];
+    double root = t * m->root[depth * m->step], other = m->other[depth * m->step];
+    const double *ect_row = runs->ect + depth * runs->row;
+    const double *root_row = runs->root + depth * runs->row;
+    for (size_t i = 0; i < runs->n; i += FOUR) {
+        four c = four_at(runs->c + i), ect = four_at(ect_row + i);
+        four z = (c - m->k) * t, sum = (c + m->k) * t;
+        four x = four_at(view->near_over + i) * (e - ect);
+        four y = four_at(view->far_over + i) * (other * (1 - e * ect));
         four_int close = four_within_one(z);
         if (four_any(close)) {
-            four roots = run->t * (m->root * four_at(run->root + i));
+            four roots = root * four_at(root_row + i);
             four near = four_at(view->near + i) * roots * four_sinh_over(z * z / 4);
-            four far = four_at(view->far + i) * m->other * roots *
+            four far = four_at(view->far + i) * other * roots *
                        four_sinh_over(sum * sum / 4);
             x = four_choose(close, near, x);
             y = four_choose(sum < 1, far, y);
         }
         four_to(same + i, x);
         four_to(opposite + i, y);
+    }
+}
+
+PPS_CLONES void pps_mode_rays(const pps_runs *runs, const pps_mode_here *mode,
+                              const pps_mode_view *view, size_t apart, double *same,
+                              double *opposite) {
+    for (size_t k = 0; k < runs->n_tau; k++) {
+        if (runs->t[k] > 0) {
+            mode_row(runs, mode, view, k, same + k * apart, opposite + k * apart);
+            continue;
+        }
+        for (size_t i = 0; i < runs->n; i++) { /* at the edge where they enter */
+            same[k * apart + i] = opposite[k * apart + i] = 0;
+        }
     }
 }
 

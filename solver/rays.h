@@ -39,12 +39,23 @@ void pps_mode_view_fill(size_t n, double signed_k, const double *c, const double
                         const double *go, double *near, double *near_over, double *far,
                         double *far_over);
 
-/* A mode at a depth: e^(-k t), its root, and e' = e^(-k rest). */
+/* All depths seen by rays of one sense: rows of e^(-c t) and its root `row` apart. */
+typedef struct pps_runs {
+    size_t n, n_tau, row;
+    const double *t, *c, *ect, *root;
+} pps_runs;
+
+/* A mode at all depths, `step` apart: e^(-k t), its root, and e' = e^(-k rest). */
 typedef struct pps_mode_here {
-    double k, e, root, other;
+    double k;
+    size_t step;
+    const double *e, *root, *other;
 } pps_mode_here;
-void pps_mode_rays(const pps_run *run, const pps_mode_here *mode,
-                   const pps_mode_view *view, double *same, double *opposite);
+
+/* The two integrals, rows `apart` apart. */
+void pps_mode_rays(const pps_runs *runs, const pps_mode_here *mode,
+                   const pps_mode_view *view, size_t apart, double *same,
+                   double *opposite);
 
 /* The same two integrals by themselves (without the source): of the beam, k = q. */
 void pps_beam_rays(const pps_run *run, double q, double e, double root, double other,
