@@ -78,7 +78,7 @@ PPS_LANE four_int four_within_one(four z) { return (z < 1) & (z > -1); }
 /* E1(t; a, b) of expdiff.h from e^(-a t), e^(-b t) and their square roots. Rates close
  * together: t e^(-(a+b)t/2) sinh(y)/y, y = (b - a)t/2; rates apart: the quotient. */
 PPS_LANE four four_exp1(double t, four a, four b, four ea, four eb, four root_a,
-                             four root_b) {
+                        four root_b) {
     four z = (b - a) * t, apart = (ea - eb) / (b - a);
     if (!four_any(four_within_one(z))) {
         return apart;

@@ -7,7 +7,7 @@
 
 /* Lanes `at` to `at` + 3 of a block. */
 PPS_LANE void expand(const pps_series *series, size_t first, size_t at, double step,
-                          double k2, double *a, double *b) {
+                     double k2, double *a, double *b) {
     size_t i = first + at;
     four q = four_at(series->q + i), e = four_at(series->beam + i); /* of e^(-q tau) */
     four alpha = four_at(series->alpha + i), beta = four_at(series->beta + i);
@@ -45,7 +45,7 @@ PPS_CLONES void pps_series_value(const double *a, double u, double *value) {
 enum { START_DOWN = 80 };
 
 PPS_LANE void moments_of(four z, four first, double share, size_t padded,
-                              double *moment) {
+                         double *moment) {
     four up[PPS_SERIES_TERMS] = {first}, down = z / (z + (START_DOWN + 1));
     for (int d = 1; d < PPS_SERIES_TERMS; d++) {
         up[d] = 1 - d * up[d - 1] / z;

@@ -42,7 +42,7 @@ PPS_CLONES void pps_rows_multiply(size_t rows, size_t inner, const double *a,
 
 /* L y = b, then L^T x = y, for a block of columns. */
 PPS_LANE void solve_block(size_t n, const double *factor, size_t padded,
-                               double *column) {
+                          double *column) {
     for (size_t i = 0; i < n; i++) {
         double *bi = column + i * padded;
         four left = four_at(bi), right = four_at(bi + FOUR);

@@ -18,10 +18,10 @@
 #include <string.h>
 
 #include "core/expdiff.h"
+#include "core/series.h"
 #include "core/vector.h"
 #include "solver/lapack.h"
 #include "solver/order.h"
-#include "core/series.h"
 
 /* In slabs thinner than this a mode with k w < 1 is a series from one edge, which costs it
  * this factor of its accuracy at the other; in thicker ones it is a special mode. */
@@ -118,9 +118,9 @@ static pps_mode mode_of_beam(const pps_order *order, int j, double w,
                              const pps_beams *beams, size_t b) {
     size_t at = (size_t)j * beams->padded + b;
     double k = order->k[j], q = beams->q[b];
-    pps_mode_kind kind = j < order->n_small
-                             ? (is_thin(w, q) ? PPS_MODE_THIN : PPS_MODE_SMALL)
-                             : (is_resonant(k, q) ? PPS_MODE_RESONANT : PPS_MODE_NORMAL);
+    pps_mode_kind kind =
+        j < order->n_small ? (is_thin(w, q) ? PPS_MODE_THIN : PPS_MODE_SMALL)
+                           : (is_resonant(k, q) ? PPS_MODE_RESONANT : PPS_MODE_NORMAL);
     pps_mode mode;
     pps_mode_beam_of_kind(&mode, kind, k, w, q, order->alpha[at], order->beta[at]);
     return mode;

@@ -16,7 +16,7 @@ enum { MOST = PPS_EIGEN_SMALL, MOST_SWEEPS = 40 /* an eigenvalue; two are usual 
 
 /* Columns are padded to whole blocks, with zeros that stay zeros. */
 typedef struct {
-    size_t n, rows; /* rows: n padded */
+    size_t n, rows;          /* rows: n padded */
     double d[MOST], e[MOST]; /* the tridiagonal matrix: e[i] beside d[i], d[i + 1] */
     double beta[MOST];       /* reflection k is 1 - beta v v^T, v column k of `a` */
     double a[MOST * MOST], q[MOST * MOST];
@@ -82,9 +82,9 @@ PPS_LANE void reduce(work *w) {
             double *column = w->a + j * rows + skip;
             double pj = w->p[j], vj = v[j];
             for (size_t i = 0; i < left; i += FOUR) {
-                four_to(column + i, four_at(column + i) -
-                                        (pj * four_at(v + skip + i) +
-                                         vj * four_at(w->p + skip + i)));
+                four_to(column + i,
+                        four_at(column + i) - (pj * four_at(v + skip + i) +
+                                               vj * four_at(w->p + skip + i)));
             }
         }
     }
@@ -104,7 +104,8 @@ PPS_LANE void turn_round(work *w) {
         w->d[i] = w->d[n - 1 - i];
         w->d[n - 1 - i] = d;
         for (size_t row = 0; row < w->rows; row += FOUR) {
-            double *x = w->q + i * w->rows + row, *y = w->q + (n - 1 - i) * w->rows + row;
+            double *x = w->q + i * w->rows + row,
+                   *y = w->q + (n - 1 - i) * w->rows + row;
             four keep = four_at(x);
             four_to(x, four_at(y));
             four_to(y, keep);

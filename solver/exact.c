@@ -189,8 +189,7 @@ static pps_status rung_radiance(exact *e, int index, int streams, double azimuth
             return status;
         }
         int used = orders < dom->n_orders ? orders : dom->n_orders;
-        status =
-            pps_dom_radiance_orders(dom, 0, 1, used, what->at, radiance, &rest);
+        status = pps_dom_radiance_orders(dom, 0, 1, used, what->at, radiance, &rest);
         e->info.orders = used;
         if (status || rest <= 10 * azimuth) {
             return status;
@@ -307,8 +306,7 @@ static const double TO_ROUNDING = 1e-15; /* the azimuth series of given streams 
 /* Beam b by itself, when its azimuth series takes more orders than were expected. */
 static pps_status beam_again(exact *e, size_t b, const request *what, double *answer) {
     e->mu0 = e->beams[b];
-    pps_status status =
-        rung_answer(e, 0, e->opts.streams, TO_ROUNDING, what, answer);
+    pps_status status = rung_answer(e, 0, e->opts.streams, TO_ROUNDING, what, answer);
     e->orders_used[b] = e->info.orders;
     return status;
 }
@@ -346,8 +344,8 @@ static pps_status radiances_at_once(exact *e, const request *what, double *radia
 
 static pps_status fluxes_at_once(exact *e, const request *what, pps_flux *flux) {
     pps_dom *dom;
-    pps_status status = rung_solve_beams(e, 0, e->opts.streams, 1, 0, e->n_beams,
-                                         e->beams, &dom);
+    pps_status status =
+        rung_solve_beams(e, 0, e->opts.streams, 1, 0, e->n_beams, e->beams, &dom);
     for (size_t b = 0; b < e->n_beams; b++) {
         e->orders_used[b] = 1;
     }

@@ -7,8 +7,8 @@
 
 #include "core/hemisphere.h"
 #include "core/lanes.h"
-#include "solver/dom.h"
 #include "core/series.h"
+#include "solver/dom.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -47,8 +47,7 @@ PPS_LANE void sums_to(mode_sums *sum, size_t at, const four_sums *value) {
     four_to(sum->size + at, value->size);
 }
 
-PPS_LANE void add_mode(const mode_weights *of, four psi, four phi,
-                            four_sums *sum) {
+PPS_LANE void add_mode(const mode_weights *of, four psi, four phi, four_sums *sum) {
     four even = of->even * psi, odd = of->odd * phi;
     sum->even += even;
     sum->odd += odd;
@@ -200,8 +199,8 @@ static double flux_by_nodes(const pps_dom *dom, size_t b, double tau, double sig
             for (int j = 0; j < d->n; j++) {
                 double psi, phi;
                 pps_mode_ray(&mode[j], &ray, &at[j], &psi, &phi);
-                radiance += ge[j * PPS_LANES + l] * psi +
-                            sign * go[j * PPS_LANES + l] * phi;
+                radiance +=
+                    ge[j * PPS_LANES + l] * psi + sign * go[j * PPS_LANES + l] * phi;
             }
             sum += d->weight[first + l] * mu[l] * radiance;
         }
@@ -243,8 +242,7 @@ static pps_hemisphere discrete_single(const pps_dom *dom, double mu0, double sca
     for (int i = 0; i < d->n; i++) {
         pps_ray ray;
         double mu = down ? d->mu[i] : -d->mu[i];
-        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / mu0, scaled,
-                     mu);
+        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / mu0, scaled, mu);
         double part = d->weight[i] * ray.beam * pps_discrete_single(d, mu, mu0);
         sum.flux += 2 * PI * d->mu[i] * part;
         sum.mean += part / 2;
@@ -252,10 +250,10 @@ static pps_hemisphere discrete_single(const pps_dom *dom, double mu0, double sca
     return sum;
 }
 
-static pps_hemisphere exact_single(const pps_dom *dom, double mu0, double tau, int down) {
+static pps_hemisphere exact_single(const pps_dom *dom, double mu0, double tau,
+                                   int down) {
     const pps_slab *slab = &dom->slab;
-    pps_hemisphere h =
-        pps_single_hemisphere(slab->g, mu0, slab->thickness, tau, down);
+    pps_hemisphere h = pps_single_hemisphere(slab->g, mu0, slab->thickness, tau, down);
     return (pps_hemisphere){slab->albedo * h.flux, slab->albedo * h.mean};
 }
 
@@ -263,7 +261,8 @@ static pps_hemisphere exact_single(const pps_dom *dom, double mu0, double tau, i
 static double multiple_scale(const pps_dom *dom, double mu0) {
     double w = dom->slab.thickness, scaled = w * dom->stretch;
     double exact = -dom->slab.albedo * mu0 * expm1(-w / mu0) -
-                   exact_single(dom, mu0, 0, 0).flux - exact_single(dom, mu0, w, 1).flux;
+                   exact_single(dom, mu0, 0, 0).flux -
+                   exact_single(dom, mu0, w, 1).flux;
     double discrete = -dom->discrete.albedo * mu0 * expm1(-scaled / mu0) -
                       discrete_single(dom, mu0, 0, 0).flux -
                       discrete_single(dom, mu0, scaled, 1).flux;

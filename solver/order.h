@@ -43,7 +43,7 @@ double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0);
  * rows of `padded` numbers, the last ones of no meaning but finite. */
 typedef struct pps_beams {
     size_t n, padded;
-    bool sky;      /* isotropic light instead; n = 1 and q = 1 then */
+    bool sky; /* isotropic light instead; n = 1 and q = 1 then */
     double *mu0;
     double *q;     /* 1/mu0 */
     double *decay; /* e^(-q w) */

@@ -19,10 +19,10 @@
 #include <ppscat/phase.h>
 
 #include "core/legendre.h"
+#include "core/series.h"
 #include "core/vector.h"
 #include "solver/dom.h"
 #include "solver/rays.h"
-#include "core/series.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -33,22 +33,23 @@ typedef struct {
     const pps_view *view;
     size_t first, n_beams; /* beams first .. first + n_beams - 1 */
     size_t n, n_slots, rays;
-    double *tau, *rest;          /* n_tau: scaled, to the top and to the bottom */
-    double *ect, *root;          /* rays: e^(-c t), t to where the ray enters; its root */
-    double *mode[4];             /* n_tau x n: e^(-k tau), its root; at w - tau */
-    double *ge, *go;             /* n rows, when the view has not kept them */
-    double *near, *near_over;    /* a row each, of the mode in hand */
-    double *far, *far_over;      /* "    */
-    double *row[2];              /* n_tau x n rows: what a c1, a c2 of 1 gives */
-    double *moment;              /* n_tau x PPS_SERIES_TERMS rows */
-    double *legendre;            /* n_moments rows */
-    double *angle, *cosine;      /* n_phi: azimuth within +-180; cos(m phi) */
-    double *beam;                /* n_beams x rays: the beam's ray integral */
-    double *source;              /* a row */
-    double *series;              /* PPS_LANES beams x PPS_SERIES_TERMS rows */
-    double *term[2];             /* n_beams x rays: this order, the one before */
-    double *value;               /* n_beams x n_phi x rays */
-    int *small_in_a_row, *order; /* n_beams: towards the end of the series; orders used */
+    double *tau, *rest;       /* n_tau: scaled, to the top and to the bottom */
+    double *ect, *root;       /* rays: e^(-c t), t to where the ray enters; its root */
+    double *mode[4];          /* n_tau x n: e^(-k tau), its root; at w - tau */
+    double *ge, *go;          /* n rows, when the view has not kept them */
+    double *near, *near_over; /* a row each, of the mode in hand */
+    double *far, *far_over;   /* "    */
+    double *row[2];           /* n_tau x n rows: what a c1, a c2 of 1 gives */
+    double *moment;           /* n_tau x PPS_SERIES_TERMS rows */
+    double *legendre;         /* n_moments rows */
+    double *angle, *cosine;   /* n_phi: azimuth within +-180; cos(m phi) */
+    double *beam;             /* n_beams x rays: the beam's ray integral */
+    double *source;           /* a row */
+    double *series;           /* PPS_LANES beams x PPS_SERIES_TERMS rows */
+    double *term[2];          /* n_beams x rays: this order, the one before */
+    double *value;            /* n_beams x n_phi x rays */
+    int *small_in_a_row,
+        *order; /* n_beams: towards the end of the series; orders used */
     double *memory;
     pps_view *own_view;
 } field;
@@ -172,8 +173,7 @@ static void beam_integrals(field *s, size_t b) {
         for (int down = 0; down < 2; down++) {
             pps_run run = run_at(s, k, down);
             pps_beam_rays(&run, q, x[!down], x[2 + !down], x[down],
-                          s->beam + b * s->rays + k * s->n_slots +
-                              first_slot(s, down));
+                          s->beam + b * s->rays + k * s->n_slots + first_slot(s, down));
         }
     }
 }
@@ -294,8 +294,9 @@ static void mode_rows(field *s, const pps_order *order, const double *ge,
         for (int down = 0; down < 2; down++) {
             size_t first = first_slot(s, down), row = j * s->n_slots + first;
             size_t n = down ? s->view->n_down : s->view->n_up;
-            pps_mode_view_fill(n, down ? order->k[j] : -order->k[j], s->view->c + first, ge + row,
-                               go + row, s->near, s->near_over, s->far, s->far_over);
+            pps_mode_view_fill(n, down ? order->k[j] : -order->k[j], s->view->c + first,
+                               ge + row, go + row, s->near, s->near_over, s->far,
+                               s->far_over);
             pps_runs runs = {n,
                              s->at->n_tau,
                              s->n_slots,
@@ -318,8 +319,7 @@ static void ray_moments(field *s) {
             pps_run run = run_at(s, k, down);
             size_t first = first_slot(s, down);
             pps_series_moments(run.n, w, run.t, run.c, run.ect, run.root,
-                               s->moment + PPS_SERIES_TERMS *
-                                               (k * s->n_slots + first));
+                               s->moment + PPS_SERIES_TERMS * (k * s->n_slots + first));
         }
     }
 }
@@ -469,9 +469,9 @@ static void add_order(field *s, int m) {
     }
     for (size_t b = 0; b < s->n_beams; b++) {
         if (is_running(s, b)) {
-            bool small = pps_add_order(
-                s->rays, at->n_phi, s->cosine, s->term[0] + b * s->rays,
-                s->dom->tolerance, s->value + b * at->n_phi * s->rays);
+            bool small =
+                pps_add_order(s->rays, at->n_phi, s->cosine, s->term[0] + b * s->rays,
+                              s->dom->tolerance, s->value + b * at->n_phi * s->rays);
             s->small_in_a_row[b] = small ? s->small_in_a_row[b] + 1 : 0;
             s->order[b] = m + 1;
         }
@@ -587,9 +587,9 @@ pps_status pps_dom_radiance(const pps_dom *dom, const pps_grid *at, double *radi
         return PPS_ERR_ARGUMENT;
     }
     double *rest = malloc(n * sizeof *rest);
-    pps_status status = rest ? pps_dom_radiance_orders(dom, 0, n, dom->n_orders, at,
-                                                       radiance, rest)
-                             : PPS_ERR_MEMORY;
+    pps_status status =
+        rest ? pps_dom_radiance_orders(dom, 0, n, dom->n_orders, at, radiance, rest)
+             : PPS_ERR_MEMORY;
     free(rest);
     return status;
 }

@@ -41,8 +41,8 @@ PPS_LANE void mode_row(const pps_runs *runs, const pps_mode_here *m,
         if (four_any(close)) {
             four roots = root * four_at(root_row + i);
             four near = four_at(view->near + i) * roots * four_sinh_over(z * z / 4);
-            four far = four_at(view->far + i) * other * roots *
-                       four_sinh_over(sum * sum / 4);
+            four far =
+                four_at(view->far + i) * other * roots * four_sinh_over(sum * sum / 4);
             x = four_choose(close, near, x);
             y = four_choose(sum < 1, far, y);
         }

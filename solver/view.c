@@ -89,8 +89,8 @@ pps_status pps_view_keep(pps_view *view, int n_orders, const pps_order *order,
         return PPS_OK;
     }
     size_t block = (size_t)discrete->n * view->n_slots;
-    double *scratch = malloc(((size_t)discrete->n_moments * view->n_slots + 1) *
-                             sizeof *scratch);
+    double *scratch =
+        malloc(((size_t)discrete->n_moments * view->n_slots + 1) * sizeof *scratch);
     double **kept = calloc((size_t)n_orders, sizeof *kept);
     if (!scratch || !kept) {
         free(scratch);

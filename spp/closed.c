@@ -103,8 +103,7 @@ PPS_LANE four normal(const pps_hemispheric *h, four tau, four eqt) {
 PPS_LANE four resonant(const pps_hemispheric *h, four tau) {
     four ekt = four_exp(-h->k * tau), eqt = four_exp(-h->q * tau);
     four z = (h->q - h->k) * tau; /* Theta as E1 of core/expdiff.h */
-    four near =
-        tau * four_exp(-(h->k + h->q) / 2 * tau) * four_sinh_over(z * z / 4);
+    four near = tau * four_exp(-(h->k + h->q) / 2 * tau) * four_sinh_over(z * z / 4);
     four theta = four_choose(four_within_one(z), near, (ekt - eqt) / (h->q - h->k));
     return normal(h, tau, eqt) + h->resonance * theta;
 }

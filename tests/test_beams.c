@@ -59,8 +59,9 @@ static void assert_alone(const pps_dom *dom, const pps_slab *slab,
     }
 }
 
-static const pps_slab slabs[] = {{0.95, 0.5, 10}, {0.5, 0, 0.3},   {1, -0.4, 1},
-                                 {0.99, 0.8, 0.05}, {1, 0.5, 1000}, {0.9, 0.7, INFINITY}};
+static const pps_slab slabs[] = {{0.95, 0.5, 10}, {0.5, 0, 0.3},
+                                 {1, -0.4, 1},    {0.99, 0.8, 0.05},
+                                 {1, 0.5, 1000},  {0.9, 0.7, INFINITY}};
 enum { N_SLABS = sizeof slabs / sizeof *slabs };
 
 static void solver_gives_beams_together_as_alone(void **state) {
@@ -111,8 +112,8 @@ static void bad_lists_are_refused(void **state) {
     assert_int_equal(pps_dom_set_directions(dom, 2, NULL), PPS_ERR_ARGUMENT);
     pps_dom_free(dom);
     pps_model *model;
-    assert_int_equal(
-        pps_model_create(pps_method_find("spp"), &slabs[0], NULL, &model), PPS_OK);
+    assert_int_equal(pps_model_create(pps_method_find("spp"), &slabs[0], NULL, &model),
+                     PPS_OK);
     assert_int_equal(pps_model_solve_beams(model, 1, 0, beams), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_model_solve_beams(model, 1, 2, bad), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_model_solve_beams(model, 1, 2, NULL), PPS_ERR_ARGUMENT);
@@ -186,7 +187,8 @@ static void every_method_gives_beams_together_as_alone(void **state) {
     for (size_t m = 0; m < n; m++) {
         check_method(table[m], &opts);
     }
-    const pps_options lit = {.streams = 8, .light = {.beam = 1, .sky = 1, .ground = 0.3}};
+    const pps_options lit = {.streams = 8,
+                             .light = {.beam = 1, .sky = 1, .ground = 0.3}};
     const pps_options given = {.streams = 16};
     check_method(pps_method_find("exact"), &lit);
     check_method(pps_method_find("exact"), &given);

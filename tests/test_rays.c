@@ -117,9 +117,10 @@ static void check_case(const slab_case *c, pps_nodes nodes, double *worst) {
                     double allowed = 3e-14 * (1 + 0.02 * fabs(log(size))); /* of e^x */
                     if (!(error <= allowed)) {
                         print_message("albedo %g g %g w %g mu0 %g tau %g mu %g phi %g: "
-                               "%.17g, scalar %.17g, size %g\n",
-                               c->slab.albedo, c->slab.g, c->slab.thickness, beams[b],
-                               c->tau[k], mus[j], phis[i], got[i], want[i], size);
+                                      "%.17g, scalar %.17g, size %g\n",
+                                      c->slab.albedo, c->slab.g, c->slab.thickness,
+                                      beams[b], c->tau[k], mus[j], phis[i], got[i],
+                                      want[i], size);
                     }
                     assert_true(error <= allowed);
                     *worst = fmax(*worst, error);

@@ -19,10 +19,10 @@ extern "C" {
 
 /* A solved case of "hemispheric": a plain value, no memory to free. */
 typedef struct pps_hemispheric {
-    int kind;                      /* which of the forms of core/mode.h */
-    double thickness, k, q;        /* q = 1/mu0 */
-    double beam, falls, grows;     /* factors of e^(-q tau), e^(-k tau), e^(-k (w - tau)) */
-    double resonance;              /* factor of (e^(-k tau) - e^(-q tau))/(q - k) */
+    int kind;                  /* which of the forms of core/mode.h */
+    double thickness, k, q;    /* q = 1/mu0 */
+    double beam, falls, grows; /* factors of e^(-q tau), e^(-k tau), e^(-k (w - tau)) */
+    double resonance;          /* factor of (e^(-k tau) - e^(-q tau))/(q - k) */
     double top, bottom, sinh_over; /* hyperbolic form: edge values, 1/sinh(k w) */
     double series[26];             /* thin slabs: powers of tau/w */
 } pps_hemispheric;

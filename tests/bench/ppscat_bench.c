@@ -11,6 +11,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@
 
 #include <ppscat/ppscat.h>
 
-enum { ROUNDS = 7, N_DEPTHS = 10, N_MU = 16, N_PHI = 19, MOST_STREAMS = 64 };
+enum { ROUNDS = 9, N_DEPTHS = 10, N_MU = 16, N_PHI = 19, MOST_STREAMS = 64 };
 static const double ROUND_SECONDS = 0.05;
 
 static double now(void) {
@@ -105,11 +106,51 @@ static void run_case(void *context) {
     pps_dom_free(dom);
 }
 
-static void create_only(void *context) {
+/* The eigenproblems of a case alone, with what is made of them. */
+static void solve_eigenproblems(void *context) {
     one_case *c = context;
+    double k[MOST_STREAMS / 2];
     pps_dom *dom;
-    require(pps_dom_create(&slab, &c->opts, &dom));
+    pps_dom_opts opts = c->opts;
+    require(pps_dom_create(&slab, &opts, &dom)); /* order 0 */
+    for (int m = 1; m < opts.orders; m++) {
+        require(pps_dom_eigenvalues(dom, m, k)); /* made, read and thrown away */
+    }
     pps_dom_free(dom);
+}
+
+/* LAPACK's own time for one of them: a graded matrix of that size. */
+typedef struct {
+    int n;
+    double *given, *a, *value, *work;
+    int *iwork;
+} lapack_problem;
+
+static lapack_problem *lapack_of(int n) {
+    lapack_problem *p = memory(1, sizeof *p);
+    size_t nn = (size_t)n * (size_t)n;
+    p->n = n;
+    p->given = memory(5 * nn + 20 * (size_t)n + 100, sizeof *p->given);
+    p->a = p->given + nn;
+    p->value = p->a + nn;
+    p->work = p->value + n;
+    p->iwork = memory(10 * (size_t)n + 100, sizeof *p->iwork);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            p->given[i + j * n] = exp(-8.0 * (i + j) / (2 * n)) / (1 + abs(i - j));
+        }
+    }
+    return p;
+}
+
+static void run_lapack(void *context) {
+    lapack_problem *p = context;
+    int n = p->n;
+    memcpy(p->a, p->given, (size_t)n * (size_t)n * sizeof *p->a);
+    if (LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', n, p->a, n, p->value, p->work,
+                            1 + 6 * n + 2 * n * n, p->iwork, 3 + 5 * n)) {
+        require(PPS_ERR_CONVERGENCE);
+    }
 }
 
 /* ---- the sweep: 10 albedos, 3 g, 8 thicknesses, 10 mu0 ---- */
@@ -136,6 +177,7 @@ static sweep *sweep_of(bool radiances) {
     return s;
 }
 
+/* All beams of a slab at once. */
 static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radiance,
                        pps_flux **flux) {
     double tau[N_SWEEP_DEPTHS], mu[SWEEP_STREAMS], weight[SWEEP_STREAMS / 2];
@@ -165,7 +207,7 @@ static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radian
 
 static void run_sweep(void *context) {
     static const double thickness[N_THICKNESS] = {0.1, 0.3, 1, 2, 5, 10, 30, 100};
-    static const double albedo[N_ALBEDO] = {0.1,  0.3,  0.5, 0.7,   0.8,
+    static const double albedo[N_ALBEDO] = {0.1, 0.3,  0.5,  0.7,   0.8,
                                             0.9, 0.95, 0.99, 0.999, 1};
     static const double g[N_G] = {0, 0.5, 0.75};
     sweep *s = context;
@@ -190,20 +232,112 @@ static void run_sweep(void *context) {
     }
 }
 
+/* ---- closed forms ---- */
+
+enum { N_FLUENCES = 4096 };
+
+typedef struct {
+    pps_hemispheric solved;
+    double tau[N_FLUENCES], fluence[N_FLUENCES];
+} closed_form;
+
+static closed_form *hemispheric(void) {
+    closed_form *c = memory(1, sizeof *c);
+    require(pps_hemispheric_init(&c->solved, &slab, 0.4));
+    for (int i = 0; i < N_FLUENCES; i++) {
+        c->tau[i] = slab.thickness * i / (N_FLUENCES - 1);
+    }
+    return c;
+}
+
+static void run_closed(void *context) {
+    closed_form *c = context;
+    pps_hemispheric_fluence(&c->solved, N_FLUENCES, c->tau, c->fluence);
+}
+
+/* ---- the tables ---- */
+
+static FILE *csv;
+
+static void row(const char *work, int streams, double ours, double target,
+                double cdisort) {
+    printf("%-36s %4d %11.4g %11.4g %7.2f %11.4g\n", work, streams, 1e6 * ours,
+           1e6 * target, target / ours, 1e6 * cdisort);
+    if (csv) {
+        fprintf(csv, "%s,%d,%.17g,%.17g,%.17g\n", work, streams, ours, target, cdisort);
+    }
+}
+
+/* cdisort 2.1.3 and the targets, seconds: figures of the machine they were set on. */
+static void targets(void) {
+    static const struct {
+        int streams;
+        bool radiances;
+        double cdisort, times;
+    } cases[] = {{16, false, 18.6e-6, 4},  {32, false, 75e-6, 4},
+                 {64, false, 370e-6, 7},   {16, true, 1.89e-3, 20},
+                 {32, true, 5.3e-3, 10},   {64, true, 22e-3, 10}};
+    printf("%-36s %4s %11s %11s %7s %11s\n", "work (us)", "n", "ours", "target",
+           "ratio", "cdisort");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        one_case *c = case_of(cases[i].streams, cases[i].radiances);
+        row(cases[i].radiances ? "one case: radiances 10 x 16 x 19"
+                               : "one case: fluxes at 10 depths",
+            cases[i].streams, seconds(run_case, c), cases[i].cdisort / cases[i].times,
+            cases[i].cdisort);
+        free(c);
+    }
+    for (int radiances = 0; radiances < 2; radiances++) {
+        sweep *s = sweep_of(radiances);
+        double cdisort = radiances ? 690e-6 : 14.8e-6;
+        row(radiances ? "2400 cases: radiances 5 x 16 x 19" : "2400 cases: fluxes",
+            SWEEP_STREAMS, seconds(run_sweep, s) / N_CASES,
+            cdisort / (radiances ? 60 : 40), cdisort);
+        free(s->radiance);
+        free(s->flux);
+        free(s);
+    }
+    closed_form *c = hemispheric();
+    row("hemispheric fluence, one depth", 0, seconds(run_closed, c) / N_FLUENCES, 5e-9,
+        (double)NAN);
+    free(c);
+}
+
+static void eigenproblems(void) {
+    printf("\n%-36s %4s %11s %11s %7s %11s\n", "eigenproblems (us)", "n", "they take",
+           "of", "share", "dsyevd's");
+    for (int radiances = 0; radiances < 2; radiances++) {
+        for (int streams = 16; streams <= MOST_STREAMS; streams *= 2) {
+            one_case *c = case_of(streams, radiances);
+            lapack_problem *p = lapack_of(streams / 2);
+            double eigen = seconds(solve_eigenproblems, c), all = seconds(run_case, c);
+            printf("%-36s %4d %11.4g %11.4g %6.0f%% %11.4g\n",
+                   radiances ? "radiances, all orders" : "fluxes", streams, 1e6 * eigen,
+                   1e6 * all, 100 * eigen / all,
+                   1e6 * c->opts.orders * seconds(run_lapack, p));
+            free(p->given);
+            free(p->iwork);
+            free(p);
+            free(c);
+        }
+    }
+}
+
 int main(int argc, char **argv) {
-    (void)argc, (void)argv;
-    for (int s = 16; s <= 64; s *= 2) {
-        one_case *c = case_of(s, false);
-        printf("flux %d: %.2f us, create %.2f us\n", s, 1e6 * seconds(run_case, c),
-               1e6 * seconds(create_only, c));
+    if (argc > 2) {
+        fprintf(stderr, "usage: ppscat-bench [FILE.csv]\n");
+        return 2;
     }
-    for (int s = 16; s <= 64; s *= 2) {
-        one_case *c = case_of(s, true);
-        printf("radiance %d: %.1f us, create %.1f us\n", s, 1e6 * seconds(run_case, c),
-               1e6 * seconds(create_only, c));
+    openblas_set_num_threads(1);
+    if (argc == 2) {
+        csv = fopen(argv[1], "w");
+        if (!csv) {
+            perror(argv[1]);
+            return 1;
+        }
+        fprintf(csv, "work,streams,seconds,target_seconds,cdisort_seconds\n");
     }
-    printf("sweep flux: %.3f us\n", 1e6 * seconds(run_sweep, sweep_of(false)) / N_CASES);
-    printf("sweep radiance: %.3f us\n",
-           1e6 * seconds(run_sweep, sweep_of(true)) / N_CASES);
-    return 0;
+    targets();
+    eigenproblems();
+    return csv && fclose(csv) ? 1 : 0;
 }
