@@ -125,10 +125,11 @@ static void decays_at(const pps_order *order, double tau, double rest,
 
 /* The exponentials, homogeneous of modes k w >= 1 and particular of all. */
 PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
-                                        size_t first, const mode_decays *decays,
-                                        const double *eqt, mode_sums *out) {
+                                        size_t first, size_t n,
+                                        const mode_decays *decays, const double *eqt,
+                                        mode_sums *out) {
     const pps_solution *s = &order->solution;
-    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+    for (size_t at = 0; at < n; at += FOUR) {
         four_sums sum = sums_at(out, at);
         four beam = four_at(eqt + at);
         for (size_t j = 0; j < (size_t)order->n; j++) {
@@ -291,9 +292,9 @@ typedef struct {
     double direct[PPS_LANES], scaled[PPS_LANES], peak[PPS_LANES];
 } beam_here;
 
-PPS_CLONES static void beam_at(const double *rates, double tau, double scaled,
+PPS_CLONES static void beam_at(size_t n, const double *rates, double tau, double scaled,
                                beam_here *beam) {
-    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+    for (size_t at = 0; at < n; at += FOUR) {
         four q = four_at(rates + at), z = q * (tau - scaled);
         four here = four_exp(-q * scaled);
         four_to(beam->direct + at, four_exp(-q * tau));
@@ -341,10 +342,10 @@ static void block_fluxes(const beam_block *block, size_t n_tau, const double *ta
     }
     for (size_t k = 0; k < n_tau; k++) {
         beam_here beam;
-        beam_at(dom->beams.q + block->first, tau[k], scaled[k], &beam);
+        beam_at(block->n, dom->beams.q + block->first, tau[k], scaled[k], &beam);
         decays_at(&dom->order[0], scaled[k], w - scaled[k], &decays);
-        sum_exponentials(&dom->order[0], dom->beams.padded, block->first, &decays,
-                         beam.scaled, &sum[k]);
+        sum_exponentials(&dom->order[0], dom->beams.padded, block->first, block->n,
+                         &decays, beam.scaled, &sum[k]);
         sum_special(block, scaled[k], &sum[k]);
         for (size_t l = 0; l < block->n; l++) {
             flux[l * stride + k] =

@@ -40,7 +40,7 @@ pps_status pps_hemispheric_init(pps_hemispheric *h, const pps_slab *slab, double
     pps_hemispheric_solve(&two, slab, mu0);
     const pps_mode *m = &two.mode;
     *h = (pps_hemispheric){
-        .kind = m->kind, .thickness = m->w, .k = m->k, .q = m->q, .beam = 1};
+        .kind = (int)m->kind, .thickness = m->w, .k = m->k, .q = m->q, .beam = 1};
     switch (m->kind) {
     case PPS_MODE_THIN:
         expand(h, m);

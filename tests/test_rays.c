@@ -140,8 +140,8 @@ static void rays_together_are_the_rays_alone(void **state) {
         for (size_t i = 0; i < sizeof g / sizeof *g; i++) {
             for (size_t t = 0; t < sizeof w / sizeof *w; t++) {
                 slab_case c = case_at(albedo[a], g[i], w[t]);
-                check_case(&c, PPS_NODES_GAUSS, &worst);
-                check_case(&c, PPS_NODES_MAPPED, &worst);
+                check_case(&c, (a + i + t) % 2 ? PPS_NODES_GAUSS : PPS_NODES_MAPPED,
+                           &worst);
             }
         }
     }

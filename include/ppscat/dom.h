@@ -1,6 +1,7 @@
 /* Discrete ordinates: the full plane-parallel model (SPP Eq. 7) on one set of nodes.
  *
- * Expensive once: `create` solves the eigenproblems of every azimuthal order.
+ * Expensive once: an eigenproblem for each azimuthal order, order 0 in `create`, the
+ * others when a beam with mu0 < 1 first needs them (give .orders = 1 for fluxes alone).
  * Cheap often: a new thickness costs two Cholesky factorisations an order, a new beam
  * a few triangular solves, an output point a sum over modes.
  *
@@ -9,6 +10,17 @@
  *     pps_dom_solve(dom, mu0);
  *     pps_dom_radiance(dom, &grid, radiance);
  *     pps_dom_free(dom);
+ *
+ * A sweep: directions once, then for each thickness all beams at once; what they share
+ * is done once for all of them.
+ *
+ *     pps_dom_set_directions(dom, grid.n_mu, grid.mu);
+ *     for (each thickness) {
+ *         pps_dom_set_thickness(dom, thickness);
+ *         pps_dom_solve_beams(dom, n, mu0);
+ *         pps_dom_flux(dom, n_tau, tau, flux);        flux[b * n_tau + k]
+ *         pps_dom_radiance(dom, &grid, radiance);
+ *     }
  *
  * For an answer good to a tolerance rather than to a number of streams, use the
  * method "exact" (method.h), which chooses streams, nodes and orders itself.
@@ -74,11 +86,12 @@ PPS_API pps_status pps_dom_create(const pps_slab *slab, const pps_dom_opts *opts
 /* Change the thickness; keeps the eigenproblems. Call pps_dom_solve next. */
 PPS_API pps_status pps_dom_set_thickness(pps_dom *dom, double thickness);
 
-/* Solve for a beam of unit irradiance normal to itself, coming along mu0 in (0, 1]. */
+/* Solve for a beam of unit irradiance normal to itself, coming along mu0 in (0, 1].
+ * Status: ARGUMENT; MEMORY, CONVERGENCE, INDEFINITE as create, of the orders it prepares. */
 PPS_API pps_status pps_dom_solve(pps_dom *dom, double mu0);
 
 /* Solve for n beams at once, one after the other in every output: the same numbers to the
- * last bit as beam by beam, in a fraction of the time. */
+ * last bit as beam by beam, in a fraction of the time. mu0[n], n >= 1; copied. */
 PPS_API pps_status pps_dom_solve_beams(pps_dom *dom, size_t n, const double *mu0);
 
 /* Solve for an isotropic radiance of 1 falling on the lit side instead of a beam. The

@@ -274,9 +274,9 @@ static void targets(void) {
         int streams;
         bool radiances;
         double cdisort, times;
-    } cases[] = {{16, false, 18.6e-6, 4},  {32, false, 75e-6, 4},
-                 {64, false, 370e-6, 7},   {16, true, 1.89e-3, 20},
-                 {32, true, 5.3e-3, 10},   {64, true, 22e-3, 10}};
+    } cases[] = {{16, false, 18.6e-6, 4}, {32, false, 75e-6, 4},
+                 {64, false, 370e-6, 7},  {16, true, 1.89e-3, 20},
+                 {32, true, 5.3e-3, 10},  {64, true, 22e-3, 10}};
     printf("%-36s %4s %11s %11s %7s %11s\n", "work (us)", "n", "ours", "target",
            "ratio", "cdisort");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
