@@ -15,6 +15,7 @@
 
 typedef double four __attribute__((vector_size(32)));
 typedef int64_t four_int __attribute__((vector_size(32)));
+typedef uint64_t four_bits __attribute__((vector_size(32)));
 /* The same in memory, at any address. */
 typedef double four_there __attribute__((vector_size(32), aligned(8), may_alias));
 
@@ -57,7 +58,7 @@ PPS_LANE four four_exp(four x) {
     p = p * r + 1.0 / 6;
     p = p * r + 0.5;
     p = 1 + (r + r * r * p);
-    four result = (four)((four_int)p + ((four_int)shifted << 52)); /* times 2^n */
+    four result = (four)((four_bits)p + ((four_bits)shifted << 52)); /* times 2^n */
     return four_choose(x < -708, four_of(0), result);
 }
 

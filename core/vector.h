@@ -15,8 +15,8 @@
  * the dynamic linker picks. Elsewhere (other CPUs, compilers or C libraries, and the
  * sanitizers, whose run time is not up yet when the linker asks) it is a plain function:
  * slower, with the same results. */
-#if defined(PPS_HAVE_TARGET_CLONES) && !defined(__SANITIZE_ADDRESS__) &&               \
-    !defined(__SANITIZE_THREAD__)
+#if defined(PPS_HAVE_TARGET_CLONES) && !defined(__clang__) &&                          \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define PPS_CLONES                                                                     \
     __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else

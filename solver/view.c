@@ -42,7 +42,9 @@ pps_status pps_view_create(size_t n_mu, const double *mu, pps_view **out) {
                        .given = memory,
                        .mu = memory + n_mu,
                        .c = memory + n_mu + most};
-    memcpy(view->given, mu, n_mu * sizeof *mu);
+    if (n_mu > 0) {
+        memcpy(view->given, mu, n_mu * sizeof *mu);
+    }
     view->n_down = fill_group(view, true, 0);
     view->n_up = fill_group(view, false, view->n_down);
     view->n_slots = view->n_down + view->n_up;
@@ -67,7 +69,7 @@ void pps_view_free(pps_view *view) {
 }
 
 bool pps_view_is_of(const pps_view *view, size_t n_mu, const double *mu) {
-    return view && view->n_mu == n_mu &&
+    return view && view->n_mu == n_mu && n_mu > 0 &&
            memcmp(view->given, mu, n_mu * sizeof *mu) == 0;
 }
 
