@@ -3,7 +3,8 @@
  *     ppscat-bench [FILE.csv]
  *
  * One thread, results in memory, CPU seconds, the least of several rounds. Single cases
- * are timed from nothing (create, solve, output, free); a sweep keeps what it may keep.
+ * are timed from nothing (create, solve, output, free) with an allocator that keeps its
+ * pages; a sweep keeps what it may keep.
  * A target is a time on the machine it was set on, so `ratio` (target / ours) compares
  * machines too; side by side with other programs: scripts/bench-peers.sh. The second
  * table shows how much of a case is eigenproblems, and LAPACK's own time for them.
@@ -18,6 +19,9 @@
 #include <time.h>
 
 #include <cblas.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <lapacke.h>
 
 #include <ppscat/ppscat.h>
@@ -329,6 +333,10 @@ int main(int argc, char **argv) {
         return 2;
     }
     openblas_set_num_threads(1);
+#ifdef M_TRIM_THRESHOLD /* else free() hands pages back, and each case faults them in */
+    mallopt(M_TRIM_THRESHOLD, 1 << 28);
+    mallopt(M_MMAP_THRESHOLD, 1 << 28);
+#endif
     if (argc == 2) {
         csv = fopen(argv[1], "w");
         if (!csv) {
