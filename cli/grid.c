@@ -123,15 +123,19 @@ static int resolve_depths(case_grid *grid, const number_list *list, size_t i_thi
                           double cap) {
     depth_list *depth = &grid->depth[i_thickness];
 
-    depth->tau = malloc(list->n * sizeof *depth->tau);
+    depth->tau = malloc(2 * list->n * sizeof *depth->tau);
     if (!depth->tau)
         return cli_no_memory();
     depth->n = list->n;
+    depth->share = depth->tau + list->n;
     if (depth->n > grid->max_depths)
         grid->max_depths = depth->n;
     for (size_t i = 0; i < list->n; i++) {
         int rc = resolve_depth(list, i, grid->thickness.value[i_thickness], cap,
                                &depth->tau[i]);
+        depth->share[i] = list->share[i]        ? list->value[i] / 100
+                          : list->value[i] == 0 ? 0
+                                                : (double)NAN;
         if (rc != CLI_DONE)
             return rc;
     }

@@ -13,6 +13,7 @@
 typedef struct {
     size_t n;
     double *tau;
+    double *share; /* tau / thickness where it was asked for so, or is 0; else NAN */
 } depth_list;
 
 /* A case is a method, albedo, g, thickness and mu0; its output is at every depth,

@@ -119,6 +119,15 @@ int store_sync(const store *s) {
     return CLI_DONE;
 }
 
+int store_sync_name(const char *name) {
+    store s = {.name = name, .fd = open(name, O_RDONLY | O_CLOEXEC)};
+    int rc = s.fd < 0 ? failed(&s) : store_sync(&s);
+
+    if (s.fd >= 0)
+        close(s.fd);
+    return rc;
+}
+
 int store_close(store *s) {
     int fd = s->fd;
 

@@ -40,6 +40,7 @@ void store_trim(store *s);
 
 /* Wait until all of it would survive a power failure. */
 int store_sync(const store *s);
+int store_sync_name(const char *name); /* of a file that others have written */
 
 /* A failure to close is a failure to write. */
 int store_close(store *s);

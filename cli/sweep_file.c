@@ -28,8 +28,8 @@
 #include "team.h"
 #include "values.h"
 
-static const double note_every = 1;  /* seconds between checkpoints */
-static const double sync_every = 30; /* between those that survive a power failure */
+static const double note_every = 0.25; /* seconds between checkpoints */
+static const double sync_every = 30;   /* between those that survive a power failure */
 
 enum { OUT_BYTES = 1 << 20 };
 
@@ -39,6 +39,7 @@ typedef struct {
     sweep_plan plan;
     const char *path;             /* of -o; NULL for standard output */
     bool regular, direct, netcdf; /* direct: rows as they come */
+    netcdf_file_writer *write_netcdf;
     char *part, *values, *journal;
     store grown; /* what the sweep writes to */
     checkpoint latest, safe;
@@ -59,19 +60,26 @@ static char *with_suffix(const char *path, const char *suffix) {
 /* Where -o leads, and whether that goes with the other options. */
 static int look(sweep_out *o) {
     const invocation *call = o->call;
-    int format = 0, rc = value_choice(call, OPT_FORMAT, &format);
+    int format = 0, deflate, rc = value_choice(call, OPT_FORMAT, &format);
 
     o->netcdf = format == 1;
     o->direct = !o->netcdf && o->plan.shape != ROWS_CASE;
-    if (rc == CLI_DONE && o->netcdf && !netcdf_file_there)
-        return cli_usage("--format: 'netcdf' is not in this build, which found no "
-                         "libnetcdf; allowed: csv");
+    if (rc == CLI_DONE && !value_whole(option_text(call, OPT_DEFLATE), 0, 9, &deflate))
+        return cli_usage("--deflate: '%.60s' is not possible; allowed: whole numbers "
+                         "from 0 to 9",
+                         call->text[OPT_DEFLATE]);
+    if (rc == CLI_DONE && option_given(call, OPT_DEFLATE) && !o->netcdf)
+        return cli_usage("--deflate '%.60s' compresses no csv; allowed: with --format "
+                         "netcdf",
+                         call->text[OPT_DEFLATE]);
     if (option_given(call, OPT_OUTPUT)) {
         o->path = call->text[OPT_OUTPUT];
         rc = rc == CLI_DONE ? store_look(o->path, &o->regular) : rc;
     }
     if (rc == CLI_DONE && o->netcdf && !o->regular)
         return cli_usage("--format: 'netcdf' needs a file; allowed: with -o FILE");
+    if (rc == CLI_DONE && o->netcdf)
+        rc = netcdf_file_load(&o->write_netcdf);
     if (rc == CLI_DONE && option_given(call, OPT_RESUME) && !o->regular)
         return cli_usage("--resume goes on with a file; allowed: with -o FILE");
     return rc;
@@ -288,9 +296,11 @@ static int convert(sweep_out *o) {
     store to;
     int rc, closed;
 
-    if (o->netcdf)
-        return netcdf_file_write(o->part, o->call, o->task, &o->plan, &o->grown,
-                                 &o->latest.record);
+    if (o->netcdf) {
+        rc = o->write_netcdf(o->part, o->call, o->task, &o->plan, &o->grown,
+                             &o->latest.record);
+        return rc == CLI_DONE ? store_sync_name(o->part) : rc;
+    }
     rc = o->regular ? store_file(&to, o->part, 0) : store_stream(&to, o->path);
     if (rc != CLI_DONE)
         return rc;
