@@ -15,6 +15,7 @@
 #include "csv.h"
 #include "directions.h"
 #include "system.h"
+#include "team.h"
 #include "values.h"
 
 enum {
@@ -327,7 +328,11 @@ static int read_sampling(const invocation *call, pps_options *options) {
 static int read_threads(const invocation *call, int *out) {
     const char *text = call->text[OPT_JOBS];
 
-    *out = system_cores();
+    *out = team_size() > 1 ? 1 : system_cores();
+    if (text && team_size() > 1 && strcmp(text, "1") != 0)
+        return cli_usage("--jobs: '%.60s' does not go with mpirun, whose ranks are one "
+                         "thread each; allowed: 1, and more ranks",
+                         text);
     if (text && !value_whole(text, 1, MAX_THREADS, out))
         return cli_usage(
             "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 "
