@@ -213,7 +213,7 @@ static int read_cosines_of_travel(const invocation *call, grid_kind kind,
 static int read_azimuths(const invocation *call, grid_kind kind, case_grid *grid) {
     int rc;
 
-    if (option_given(call, OPT_PHI) || kind == GRID_FIELD) {
+    if (option_given(call, OPT_PHI) || kind != GRID_ERROR) {
         rc = read_list(call, OPT_PHI, &grid->phi);
         return rc == CLI_DONE ? equal_weights(grid->phi.n, &grid->phi_weight) : rc;
     }
@@ -351,11 +351,13 @@ static int read_running(const invocation *call, case_grid *grid) {
 }
 
 /* Every count that follows is a size_t; this keeps their products in range. */
-static int check_size(const case_grid *grid) {
+static int check_size(const case_grid *grid, grid_kind kind) {
     double rows = (double)grid->n_methods * (double)grid->albedo.n * (double)grid->g.n *
                   (double)grid->thickness.n * (double)grid->mu0.n *
-                  (double)grid->max_depths * (double)grid->mu.n * (double)grid->phi.n;
+                  (double)grid->max_depths;
 
+    if (kind != GRID_FLUX)
+        rows *= (double)grid->mu.n * (double)grid->phi.n;
     if (rows > 1e15)
         return cli_usage("the lists ask for %.1e rows; allowed: up to 1e15", rows);
     return CLI_DONE;
@@ -374,7 +376,7 @@ int grid_init(case_grid *grid, const invocation *call, grid_kind kind) {
         rc = read_sampling(call, &grid->options);
     if (rc == CLI_DONE)
         rc = read_running(call, grid);
-    return rc == CLI_DONE ? check_size(grid) : rc;
+    return rc == CLI_DONE ? check_size(grid, kind) : rc;
 }
 
 void grid_free(case_grid *grid) {

@@ -35,6 +35,7 @@ typedef struct {
 /* Which defaults hold where --mu, --phi and --depth are not given. */
 typedef enum {
     GRID_FIELD, /* as in the table of options */
+    GRID_FLUX,  /* the same; directions are read, but make no rows */
     GRID_ERROR  /* a quadrature of the sphere, eleven depths */
 } grid_kind;
 
