@@ -216,7 +216,8 @@ static int deliver(void *context, const sweep_tile *t) {
     if (rc != CLI_DONE)
         return rc;
     o->latest.units = t->first + t->n;
-    fwrite(t->notes.data, 1, t->notes.n, stderr);
+    if (t->notes.n)
+        fwrite(t->notes.data, 1, t->notes.n, stderr);
     now = system_seconds();
     return now - o->noted < note_every ? CLI_DONE
                                        : note(o, now - o->synced >= sync_every);
