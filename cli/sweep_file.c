@@ -28,8 +28,8 @@
 #include "team.h"
 #include "values.h"
 
-static const double note_every = 0.25; /* seconds between checkpoints */
-static const double sync_every = 30;   /* between those that survive a power failure */
+static const double note_every = 0.1; /* seconds between checkpoints */
+static const double sync_every = 30;  /* between those that survive a power failure */
 
 enum { OUT_BYTES = 1 << 20 };
 
