@@ -31,6 +31,18 @@ static char *part_name(const char *path) {
     return part;
 }
 
+/* An unfinished sweep (sweep_file.c), which its journal tells, must not be lost. */
+static int refuse_to_wipe(const char *part) {
+    char journal[4096];
+
+    snprintf(journal, sizeof journal, "%s-journal", part);
+    if (access(journal, F_OK) != 0)
+        return CLI_DONE;
+    return cli_usage("--output: '%.200s' is of an unfinished sweep; allowed: another "
+                     "name, or remove '%.200s'",
+                     part, journal);
+}
+
 static int open_file(csv_file *csv, const char *path) {
     bool regular;
     int rc = store_look(path, &regular);
@@ -42,6 +54,12 @@ static int open_file(csv_file *csv, const char *path) {
         csv->part = part_name(path);
         if (!csv->part)
             return cli_no_memory();
+        rc = refuse_to_wipe(csv->part);
+        if (rc != CLI_DONE) {
+            free(csv->part);
+            csv->part = NULL;
+            return rc;
+        }
     }
     csv->file = fopen(regular ? csv->part : path, "w");
     if (csv->file)

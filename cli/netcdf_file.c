@@ -92,7 +92,7 @@ static void measure(netcdf *f) {
     memcpy(f->length, length, sizeof length);
     for (int i = f->n_axes - 1; i >= 0; i--) { /* all of the last axes, part of one */
         f->chunk[i] = length[i] < cells ? length[i] : cells;
-        cells = f->chunk[i] == length[i] ? cells / length[i] : 1;
+        cells = f->chunk[i] < length[i] ? 1 : cells / (length[i] ? length[i] : 1);
         cells = cells ? cells : 1;
     }
     if (f->n_axes > 5)
@@ -269,8 +269,10 @@ static int read_rows(netcdf *f, uint64_t first, size_t n, double *values) {
 static int read_cases(netcdf *f, uint64_t first, size_t n, double *values) {
     size_t per_row = (size_t)f->n_variables, per_case = f->task->n_values;
     double *block = malloc(BLOCK_CASES * per_case * sizeof *block);
-    int rc = block ? CLI_DONE : cli_no_memory();
+    int rc = CLI_DONE;
 
+    if (!block)
+        return cli_no_memory();
     for (size_t done = 0, run; done < n && rc == CLI_DONE; done += run) {
         uint64_t method = (first + done) / f->plan->cases;
         uint64_t at = (first + done) % f->plan->cases, left = f->plan->cases - at;
@@ -315,7 +317,7 @@ static size_t chunk_at(const netcdf *f, uint64_t cell, size_t *start, size_t *co
 
 static int put_results(netcdf *f) {
     size_t n_values = (size_t)f->n_variables, start[MOST_AXES], count[MOST_AXES];
-    double *values = malloc(CHUNK_CELLS * (n_values + 1) * sizeof *values);
+    double *values = calloc(CHUNK_CELLS * (n_values + 1), sizeof *values);
     uint64_t n_cells = 1, cells;
     int rc = values ? CLI_DONE : cli_no_memory();
 

@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep_file.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@
 static const double note_every = 0.1; /* seconds between checkpoints */
 static const double sync_every = 30;  /* between those that survive a power failure */
 
-enum { OUT_BYTES = 1 << 20 };
+enum { OUT_BYTES = 1 << 20, NAME_SIZE = 4096, LONGEST_PATH = NAME_SIZE - 64 };
 
 typedef struct {
     const invocation *call;
@@ -40,22 +41,13 @@ typedef struct {
     const char *path;             /* of -o; NULL for standard output */
     bool regular, direct, netcdf; /* direct: rows as they come */
     netcdf_file_writer *write_netcdf;
-    char *part, *values, *journal;
+    char part[NAME_SIZE], values[NAME_SIZE], journal[NAME_SIZE];
     store grown; /* what the sweep writes to */
     checkpoint latest, safe;
     double noted, synced; /* when */
 } sweep_out;
 
 /* ---- before the sweep ---- */
-
-static char *with_suffix(const char *path, const char *suffix) {
-    size_t size = strlen(path) + strlen(suffix) + 1;
-    char *text = malloc(size);
-
-    if (text)
-        snprintf(text, size, "%s%s", path, suffix);
-    return text;
-}
 
 /* Where -o leads, and whether that goes with the other options. */
 static int look(sweep_out *o) {
@@ -88,10 +80,14 @@ static int look(sweep_out *o) {
 static int name_files(sweep_out *o) {
     if (!o->regular)
         return CLI_DONE;
-    o->part = with_suffix(o->path, ".part");
-    o->values = with_suffix(o->path, ".part-values");
-    o->journal = with_suffix(o->path, ".part-journal");
-    return o->part && o->values && o->journal ? CLI_DONE : cli_no_memory();
+    if (strlen(o->path) > LONGEST_PATH) {
+        errno = ENAMETOOLONG;
+        return store_refuse(o->path);
+    }
+    snprintf(o->part, NAME_SIZE, "%s.part", o->path);
+    snprintf(o->values, NAME_SIZE, "%s.part-values", o->path);
+    snprintf(o->journal, NAME_SIZE, "%s.part-journal", o->path);
+    return CLI_DONE;
 }
 
 /* The file that grows. */
@@ -417,8 +413,5 @@ int sweep_file(const invocation *call, sweep_task *task) {
     team_dismiss();
     record_free(&o.latest.record);
     record_free(&o.safe.record);
-    free(o.part);
-    free(o.values);
-    free(o.journal);
     return rc;
 }

@@ -252,6 +252,7 @@ static void a_part_that_is_not_what_was_left_is_refused(void **state) {
     refused_and_untouched(SWEEP "-o cut.csv --resume --tol 1e-3", "--tol '1e-6'");
     refused_and_untouched("field -o cut.csv --resume", "'flux', not of 'field'");
     refused_and_untouched("flux -o cut.csv", "unfinished run");
+    refused_and_untouched("methods -o cut.csv", "unfinished sweep");
     assert_int_equal(system("cp cut.csv.part-journal good-journal; echo '{}' "
                             ">cut.csv.part-journal"),
                      0);
