@@ -12,6 +12,7 @@
 
 #include "cli.h"
 #include "compare.h"
+#include "output.h"
 
 enum { N_ALBEDOS = 5, N_ROWS = N_ALBEDOS + 1 /* and the total */ };
 
@@ -179,7 +180,7 @@ static int run(const paper_table *table, const case_grid *grid,
     if (rc != CLI_DONE)
         return rc;
     result = malloc(compare_count(grid) * sizeof *result);
-    rc = result ? compare_run(grid, &out, result) : cli_no_memory();
+    rc = result ? compare_run(grid, &out.record, result) : cli_no_memory();
     if (rc == CLI_DONE)
         rc = write_table(table, grid, &out, result);
     free(result);

@@ -11,11 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <omp.h>
-
 #include "cli.h"
 #include "csv.h"
 #include "directions.h"
+#include "system.h"
+#include "team.h"
 #include "values.h"
 
 enum {
@@ -124,15 +124,19 @@ static int resolve_depths(case_grid *grid, const number_list *list, size_t i_thi
                           double cap) {
     depth_list *depth = &grid->depth[i_thickness];
 
-    depth->tau = malloc(list->n * sizeof *depth->tau);
+    depth->tau = malloc(2 * list->n * sizeof *depth->tau);
     if (!depth->tau)
         return cli_no_memory();
     depth->n = list->n;
+    depth->share = depth->tau + list->n;
     if (depth->n > grid->max_depths)
         grid->max_depths = depth->n;
     for (size_t i = 0; i < list->n; i++) {
         int rc = resolve_depth(list, i, grid->thickness.value[i_thickness], cap,
                                &depth->tau[i]);
+        depth->share[i] = list->share[i]        ? list->value[i] / 100
+                          : list->value[i] == 0 ? 0
+                                                : (double)NAN;
         if (rc != CLI_DONE)
             return rc;
     }
@@ -209,7 +213,7 @@ static int read_cosines_of_travel(const invocation *call, grid_kind kind,
 static int read_azimuths(const invocation *call, grid_kind kind, case_grid *grid) {
     int rc;
 
-    if (option_given(call, OPT_PHI) || kind == GRID_FIELD) {
+    if (option_given(call, OPT_PHI) || kind != GRID_ERROR) {
         rc = read_list(call, OPT_PHI, &grid->phi);
         return rc == CLI_DONE ? equal_weights(grid->phi.n, &grid->phi_weight) : rc;
     }
@@ -324,7 +328,11 @@ static int read_sampling(const invocation *call, pps_options *options) {
 static int read_threads(const invocation *call, int *out) {
     const char *text = call->text[OPT_JOBS];
 
-    *out = omp_get_num_procs();
+    *out = team_size() > 1 ? 1 : system_cores();
+    if (text && team_size() > 1 && strcmp(text, "1") != 0)
+        return cli_usage("--jobs: '%.60s' does not go with mpirun, whose ranks are one "
+                         "thread each; allowed: 1, and more ranks",
+                         text);
     if (text && !value_whole(text, 1, MAX_THREADS, out))
         return cli_usage(
             "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 "
@@ -339,17 +347,17 @@ static int read_running(const invocation *call, case_grid *grid) {
     if (rc == CLI_DONE)
         rc = value_choice(call, OPT_PROGRESS, &progress);
     grid->progress = progress == 0 ? isatty(STDERR_FILENO) : progress == 1;
-    if (rc == CLI_DONE && option_given(call, OPT_RESUME))
-        return cli_usage("--resume is not there yet; run without it");
     return rc;
 }
 
 /* Every count that follows is a size_t; this keeps their products in range. */
-static int check_size(const case_grid *grid) {
+static int check_size(const case_grid *grid, grid_kind kind) {
     double rows = (double)grid->n_methods * (double)grid->albedo.n * (double)grid->g.n *
                   (double)grid->thickness.n * (double)grid->mu0.n *
-                  (double)grid->max_depths * (double)grid->mu.n * (double)grid->phi.n;
+                  (double)grid->max_depths;
 
+    if (kind != GRID_FLUX)
+        rows *= (double)grid->mu.n * (double)grid->phi.n;
     if (rows > 1e15)
         return cli_usage("the lists ask for %.1e rows; allowed: up to 1e15", rows);
     return CLI_DONE;
@@ -368,7 +376,7 @@ int grid_init(case_grid *grid, const invocation *call, grid_kind kind) {
         rc = read_sampling(call, &grid->options);
     if (rc == CLI_DONE)
         rc = read_running(call, grid);
-    return rc == CLI_DONE ? check_size(grid) : rc;
+    return rc == CLI_DONE ? check_size(grid, kind) : rc;
 }
 
 void grid_free(case_grid *grid) {

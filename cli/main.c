@@ -14,6 +14,7 @@
 
 #include "cli.h"
 #include "commands.h"
+#include "team.h"
 #include "usage.h"
 
 static int (*const commands[SUB_COUNT])(const invocation *) = {
@@ -50,8 +51,14 @@ static int unknown_subcommand(const char *word) {
 
 static int run_subcommand(subcommand_id id, int argc, char **argv) {
     invocation call;
-    int rc = options_read(id, argc, argv, &call);
+    int rc;
 
+    if (team_rank() > 0 && !option_taken_by(OPT_RESUME, id))
+        return CLI_DONE; /* no sweep: nothing to help with */
+    rc = options_read(id, argc, argv, &call);
+    if (team_rank() > 0 &&
+        (option_given(&call, OPT_VERSION) || option_given(&call, OPT_HELP)))
+        return CLI_DONE;
     if (rc != CLI_DONE)
         return rc;
     if (option_given(&call, OPT_VERSION))
@@ -65,6 +72,8 @@ static int run_subcommand(subcommand_id id, int argc, char **argv) {
 static int dispatch(int argc, char **argv) {
     const char *word = argc > 1 ? argv[1] : "";
 
+    if (team_rank() > 0 && (argc < 2 || word[0] == '-'))
+        return CLI_DONE; /* rank 0 speaks */
     if (argc < 2) {
         usage_program(stderr);
         return CLI_USAGE;
@@ -91,8 +100,11 @@ int main(int argc, char **argv) {
     int rc;
 
     signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error with its message */
-    openblas_set_num_threads(1); /* the threads are ours: one a tile */
-    rc = dispatch(argc, argv);
+    openblas_set_num_threads(1); /* the threads are ours */
+    rc = team_begin(&argc, &argv);
+    if (rc == CLI_DONE)
+        rc = dispatch(argc, argv);
+    team_end();
     if (fflush(stdout) != 0 && rc != CLI_FAILED)
         return cli_failed("cannot write standard output: %s", strerror(errno));
     return rc;

@@ -1,4 +1,5 @@
-/* What a run leaves: a CSV file or standard output, its sidecar, and the refused rows.
+/* What a short run leaves: a CSV file or standard output, its sidecar, and the refused
+ * rows. Sweeps, which are resumed, have files of their own (sweep_file.h).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_OUTPUT_H
@@ -8,20 +9,10 @@
 #include "metadata.h"
 #include "options.h"
 
-/* Rows that one method refused for one reason. */
-typedef struct {
-    const pps_method *method;
-    const char *reason;
-    size_t rows;
-} refused_count;
-
 typedef struct {
     csv_file csv;
     const invocation *call;
-    used_log used;
-    size_t n_refusals;
-    refused_count *refusals;
-    size_t rows, refused_rows;
+    record record;
 } output;
 
 /* Open what -o names and write the header row. CLI_USAGE where it cannot be written. */

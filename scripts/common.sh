@@ -4,7 +4,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(cmake ninja-build gcc libc6-dev pkg-config
     liblapacke-dev libopenblas-dev libgsl-dev librandom123-dev
-    libjansson-dev libcmocka-dev)
+    libjansson-dev libnetcdf-dev libcmocka-dev)
 
 say() { printf '== %s\n' "$*"; }
 
