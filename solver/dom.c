@@ -48,7 +48,7 @@ pps_nodes pps_dom_choose_nodes(const pps_slab *slab, int streams) {
     double seen = pow(16.0 / streams, 3);
     bool mapped = slab->thickness < 0.1 ||
                   (slab->thickness < 1 ? left_out < 1e-3 * seen
-                                       : streams > 8 && left_out < 1e-4 * seen);
+                                       : streams > 8 && left_out < 2e-5 * seen);
     return mapped ? PPS_NODES_MAPPED : PPS_NODES_GAUSS;
 }
 

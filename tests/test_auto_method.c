@@ -235,7 +235,7 @@ static double median(double *x, int n) {
 static void tolerance_is_met_in_99_of_100_slabs_at_little_cost(void **state) {
     (void)state;
     directions d = make_directions();
-    uint64_t seed = 349;
+    uint64_t seed = 20261122;
     tally sum = {0};
     for (int t = 0; t < N_TOLERANCES; t++) {
         sum.cost[t] = calloc((size_t)n_slabs, sizeof(double));
