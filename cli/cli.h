@@ -26,6 +26,9 @@ int cli_failed(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Print a message that is no error. */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* From now on only cli_failed speaks: another process says the rest. */
+void cli_mute(void);
+
 /* "out of memory"; returns CLI_FAILED. */
 int cli_no_memory(void);
 

@@ -23,7 +23,7 @@ static int evaluate(const sweep_station *own, const sweep_unit *unit, double *va
 
 int cmd_flux(const invocation *call) {
     case_grid grid;
-    int rc = grid_init(&grid, call, GRID_FIELD);
+    int rc = grid_init(&grid, call, GRID_FLUX);
     sweep_task task = {.grid = &grid,
                        .shape = ROWS_DEPTHS,
                        .n_values = FLUX_VALUES,

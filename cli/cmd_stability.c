@@ -77,13 +77,14 @@ static sweep_case case_of(const tile *t, size_t i) {
 
 /* ---- the cases of a tile ---- */
 
-/* What a thread works with: a model a method, their answers, the trusted solution. */
+/* What a thread works with: a model a method, their answers, the trusted solutions. */
 typedef struct {
     pps_model **model;
     pps_status *status; /* of the model, then of the answer */
     sample *got;
     double deviation[SAMPLE_NUMBERS]; /* of `mc` */
-    trusted truth;
+    truths *truth;
+    sample want[N_TRUTHS];
 } station;
 
 static int open_station(station *s, const tile *t, size_t n_methods) {
@@ -92,8 +93,8 @@ static int open_station(station *s, const tile *t, size_t n_methods) {
     *s = (station){.model = calloc(n_methods, sizeof(pps_model *)),
                    .status = calloc(n_methods, sizeof *s->status),
                    .got = calloc(n_methods, sizeof *s->got),
-                   .truth = {.slab = slab}};
-    if (!s->model || !s->status || !s->got)
+                   .truth = truths_new(&slab, &t->grid->options)};
+    if (!s->model || !s->status || !s->got || !s->truth)
         return cli_no_memory();
     for (size_t m = 0; m < n_methods; m++)
         s->status[m] = pps_model_create(t->grid->method[m], &slab, &t->grid->options,
@@ -107,7 +108,7 @@ static void close_station(station *s, size_t n_methods) {
     free(s->model);
     free(s->status);
     free(s->got);
-    trusted_free(&s->truth);
+    truths_free(s->truth);
 }
 
 /* Of this thread: what others do at the same time does not count. */
@@ -118,31 +119,58 @@ static double processor_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The answer of method m; true where it is worth comparing radiances. */
-static bool answer(station *s, const tile *t, const sweep_case *at, size_t m, cell *c) {
+static void answer(station *s, const tile *t, const sweep_case *at, size_t m, cell *c) {
     const pps_method *method = t->grid->method[m];
     pps_slab slab = {at->albedo, at->g, at->thickness};
     double start = processor_seconds();
 
     if (!s->model[m])
-        return false;
+        return;
     s->status[m] =
         strcmp(method->name, "mc") == 0
             ? sample_mc(&slab, at->mu0, &t->grid->options, s->deviation, &s->got[m])
             : sample_model(s->model[m], method, at->thickness, at->mu0, &s->got[m]);
     c->seconds = processor_seconds() - start;
-    return !s->status[m] && s->got[m].has_radiance && judged_in_full(method);
 }
 
-static int judge(const station *s, const tile *t, size_t m, const sample *want,
-                 cell *c) {
+/* The trusted solutions that the answers are held against. */
+static int find_truths(station *s, const tile *t, const sweep_case *at) {
+    bool wanted[N_TRUTHS] = {false}, radiance[N_TRUTHS] = {false};
+
+    for (size_t m = 0; m < t->grid->n_methods; m++) {
+        const pps_method *method = t->grid->method[m];
+        if (s->status[m])
+            continue;
+        wanted[truth_for(method)] = true;
+        radiance[truth_for(method)] |= judged_in_full(method) && s->got[m].has_radiance;
+    }
+    for (truth_kind kind = 0; kind < N_TRUTHS; kind++) {
+        pps_status status = wanted[kind]
+                                ? truths_sample(s->truth, kind, at->thickness, at->mu0,
+                                                radiance[kind], &s->want[kind])
+                                : PPS_OK;
+        if (status == PPS_ERR_MEMORY)
+            return cli_no_memory();
+        if (status)
+            return cli_failed("no trusted value at albedo %g, g %g, thickness %g: %s",
+                              at->albedo, at->g, at->thickness,
+                              pps_status_string(status));
+    }
+    return CLI_DONE;
+}
+
+static int judge(const station *s, const tile *t, size_t m, cell *c) {
+    const pps_method *method = t->grid->method[m];
+
     if (s->status[m]) {
         c->verdict = REFUSED;
         c->error = CSV_EMPTY;
         return sweep_judge(s->status[m], &c->refusal);
     }
-    c->verdict = judge_sample(t->grid->method[m], t->grid->options.tolerance,
-                              &s->got[m], want, &c->error);
+    c->verdict = judge_sample(method, t->grid->options.tolerance, &s->got[m],
+                              &s->want[truth_for(method)], &c->error);
+    if (c->verdict == REFUSED)
+        c->refusal = "too few photons to know the error";
     if (c->verdict == OK && c->seconds > too_slow)
         c->verdict = TOO_SLOW;
     return CLI_DONE;
@@ -152,20 +180,13 @@ static int judge(const station *s, const tile *t, size_t m, const sample *want,
 static int walk_case(walk *w, station *s, const tile *t, size_t i) {
     cell *cells = &w->cells[t->first + i];
     sweep_case at = case_of(t, i);
-    bool radiance = false;
-    const char *refusal;
-    sample want;
     int rc;
 
     for (size_t m = 0; m < w->n_methods; m++)
-        radiance |= answer(s, t, &at, m, &cells[m * w->n_cases]);
-    rc = sweep_judge(trusted_sample(&s->truth, at.thickness, at.mu0, radiance, &want),
-                     &refusal);
-    if (rc == CLI_DONE && refusal)
-        rc = cli_failed("no trusted value at albedo %g, g %g, thickness %g: %s",
-                        at.albedo, at.g, at.thickness, refusal);
+        answer(s, t, &at, m, &cells[m * w->n_cases]);
+    rc = find_truths(s, t, &at);
     for (size_t m = 0; m < w->n_methods && rc == CLI_DONE; m++) {
-        rc = judge(s, t, m, &want, &cells[m * w->n_cases]);
+        rc = judge(s, t, m, &cells[m * w->n_cases]);
         progress_step(&w->progress);
     }
     return rc;

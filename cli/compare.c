@@ -171,9 +171,12 @@ static int evaluate(const sweep_station *own, const sweep_unit *unit, double *va
     size_t n_cases = compare_count(grid) / grid->n_methods;
     size_t i_case = (unit->i_albedo * grid->g.n + unit->i_g) * grid->thickness.n;
     comparison *c = malloc(unit->mu0.n * grid->n_methods * sizeof *c);
-    int rc = c ? compare_unit(own, unit, c, t) : cli_no_memory();
+    int rc;
 
     (void)values;
+    if (!c)
+        return cli_no_memory();
+    rc = compare_unit(own, unit, c, t);
     i_case = (i_case + unit->i_thickness) * grid->mu0.n + unit->mu0.first;
     for (size_t b = 0; b < unit->mu0.n && rc == CLI_DONE; b++) {
         for (size_t i = 0; i < grid->n_methods; i++)

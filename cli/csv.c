@@ -6,11 +6,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli.h"
 #include "number.h"
+#include "store.h"
 
 enum { BUFFER_SIZE = 1 << 16 };
 
@@ -19,10 +19,6 @@ size_t csv_format(double x, char text[CSV_NUMBER_SIZE]) {
 
     text[length] = '\0';
     return length;
-}
-
-static int unwritable(const char *path) {
-    return cli_usage("--output: cannot write '%.200s': %s", path, strerror(errno));
 }
 
 /* "FILE.part"; NULL without memory. */
@@ -35,34 +31,46 @@ static char *part_name(const char *path) {
     return part;
 }
 
-static int open_file(csv_file *csv, const char *path) {
-    struct stat status;
-    bool exists = stat(path, &status) == 0;
-    bool folder = exists && S_ISDIR(status.st_mode);
-    bool in_place = exists && !S_ISREG(status.st_mode);
+/* An unfinished sweep (sweep_file.c), which its journal tells, must not be lost. */
+static int refuse_to_wipe(const char *part) {
+    char journal[4096];
 
-    if (folder || (exists && access(path, W_OK) != 0)) {
-        errno = folder ? EISDIR : errno;
-        return unwritable(path);
-    }
+    snprintf(journal, sizeof journal, "%s-journal", part);
+    if (access(journal, F_OK) != 0)
+        return CLI_DONE;
+    return cli_usage("--output: '%.200s' is of an unfinished sweep; allowed: another "
+                     "name, or remove '%.200s'",
+                     part, journal);
+}
+
+static int open_file(csv_file *csv, const char *path) {
+    bool regular;
+    int rc = store_look(path, &regular);
+
+    if (rc != CLI_DONE)
+        return rc;
     csv->path = path;
-    if (!in_place) {
+    if (regular) {
         csv->part = part_name(path);
         if (!csv->part)
             return cli_no_memory();
+        rc = refuse_to_wipe(csv->part);
+        if (rc != CLI_DONE) {
+            free(csv->part);
+            csv->part = NULL;
+            return rc;
+        }
     }
-    csv->file = fopen(in_place ? path : csv->part, "w");
+    csv->file = fopen(regular ? csv->part : path, "w");
     if (csv->file)
         return CLI_DONE;
     free(csv->part);
     csv->part = NULL;
-    return unwritable(path);
+    return store_refuse(path);
 }
 
 int csv_open(csv_file *csv, const char *path) {
     *csv = (csv_file){.file = stdout};
-    if (path && !*path)
-        return cli_usage("--output: the name of the file is empty");
     if (path) {
         int rc = open_file(csv, path);
         if (rc != CLI_DONE)

@@ -14,6 +14,7 @@
 #include "csv.h"
 #include "directions.h"
 #include "system.h"
+#include "team.h"
 #include "values.h"
 
 enum {
@@ -122,15 +123,19 @@ static int resolve_depths(case_grid *grid, const number_list *list, size_t i_thi
                           double cap) {
     depth_list *depth = &grid->depth[i_thickness];
 
-    depth->tau = malloc(list->n * sizeof *depth->tau);
+    depth->tau = malloc(2 * list->n * sizeof *depth->tau);
     if (!depth->tau)
         return cli_no_memory();
     depth->n = list->n;
+    depth->share = depth->tau + list->n;
     if (depth->n > grid->max_depths)
         grid->max_depths = depth->n;
     for (size_t i = 0; i < list->n; i++) {
         int rc = resolve_depth(list, i, grid->thickness.value[i_thickness], cap,
                                &depth->tau[i]);
+        depth->share[i] = list->share[i]        ? list->value[i] / 100
+                          : list->value[i] == 0 ? 0
+                                                : (double)NAN;
         if (rc != CLI_DONE)
             return rc;
     }
@@ -207,7 +212,7 @@ static int read_cosines_of_travel(const invocation *call, grid_kind kind,
 static int read_azimuths(const invocation *call, grid_kind kind, case_grid *grid) {
     int rc;
 
-    if (option_given(call, OPT_PHI) || kind == GRID_FIELD) {
+    if (option_given(call, OPT_PHI) || kind != GRID_ERROR) {
         rc = read_list(call, OPT_PHI, &grid->phi);
         return rc == CLI_DONE ? equal_weights(grid->phi.n, &grid->phi_weight) : rc;
     }
@@ -310,11 +315,13 @@ static int read_running(const invocation *call, case_grid *grid) {
 }
 
 /* Every count that follows is a size_t; this keeps their products in range. */
-static int check_size(const case_grid *grid) {
+static int check_size(const case_grid *grid, grid_kind kind) {
     double rows = (double)grid->n_methods * (double)grid->albedo.n * (double)grid->g.n *
                   (double)grid->thickness.n * (double)grid->mu0.n *
-                  (double)grid->max_depths * (double)grid->mu.n * (double)grid->phi.n;
+                  (double)grid->max_depths;
 
+    if (kind != GRID_FLUX)
+        rows *= (double)grid->mu.n * (double)grid->phi.n;
     if (rows > 1e15)
         return cli_usage("the lists ask for %.1e rows; allowed: up to 1e15", rows);
     return CLI_DONE;
@@ -333,7 +340,7 @@ int grid_init(case_grid *grid, const invocation *call, grid_kind kind) {
         rc = read_sampling(call, &grid->options);
     if (rc == CLI_DONE)
         rc = read_running(call, grid);
-    return rc == CLI_DONE ? check_size(grid) : rc;
+    return rc == CLI_DONE ? check_size(grid, kind) : rc;
 }
 
 void grid_free(case_grid *grid) {

@@ -13,6 +13,7 @@
 typedef struct {
     size_t n;
     double *tau;
+    double *share; /* tau / thickness where it was asked for so, or is 0; else NAN */
 } depth_list;
 
 /* A case is a method, albedo, g, thickness and mu0; its output is at every depth,
@@ -34,6 +35,7 @@ typedef struct {
 /* Which defaults hold where --mu, --phi and --depth are not given. */
 typedef enum {
     GRID_FIELD, /* as in the table of options */
+    GRID_FLUX,  /* the same; directions are read, but make no rows */
     GRID_ERROR  /* a quadrature of the sphere, eleven depths */
 } grid_kind;
 

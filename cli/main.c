@@ -76,8 +76,14 @@ static bool names_subcommand(const char *name, int argc, char **argv) {
 
 static int run_subcommand(subcommand_id id, int argc, char **argv) {
     invocation call;
-    int rc = options_read(id, argc, argv, &call);
+    int rc;
 
+    if (team_rank() > 0 && !option_taken_by(OPT_RESUME, id))
+        return CLI_DONE; /* no sweep: nothing to help with */
+    rc = options_read(id, argc, argv, &call);
+    if (team_rank() > 0 &&
+        (option_given(&call, OPT_VERSION) || option_given(&call, OPT_HELP)))
+        return CLI_DONE;
     if (rc != CLI_DONE)
         return rc;
     if (option_given(&call, OPT_VERSION))
@@ -91,6 +97,8 @@ static int run_subcommand(subcommand_id id, int argc, char **argv) {
 static int dispatch(int argc, char **argv) {
     const char *word = argc > 1 ? argv[1] : "";
 
+    if (team_rank() > 0 && (argc < 2 || word[0] == '-'))
+        return CLI_DONE; /* rank 0 speaks */
     if (argc < 2) {
         usage_program(stderr);
         return CLI_USAGE;

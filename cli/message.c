@@ -4,10 +4,15 @@
 #include "cli.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 1024, WORD_SIZE = 32 };
+
+static bool muted;
+
+void cli_mute(void) { muted = true; }
 
 /* One line, whatever the user's text holds. */
 static void print(const char *format, va_list arguments) {
@@ -25,7 +30,8 @@ int cli_usage(const char *format, ...) {
     va_list arguments;
 
     va_start(arguments, format);
-    print(format, arguments);
+    if (!muted)
+        print(format, arguments);
     va_end(arguments);
     return CLI_USAGE;
 }
@@ -43,7 +49,8 @@ void cli_note(const char *format, ...) {
     va_list arguments;
 
     va_start(arguments, format);
-    print(format, arguments);
+    if (!muted)
+        print(format, arguments);
     va_end(arguments);
 }
 

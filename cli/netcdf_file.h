@@ -1,5 +1,8 @@
-/* The results of a sweep as NetCDF, one axis a parameter (netcdf_file.c; netcdf_absent.c
- * where the build found no libnetcdf).
+/* The results of a sweep as NetCDF, one axis a parameter.
+ *
+ * The writer is a module, ppscat-netcdf.so (netcdf_file.c), loaded when it is asked for:
+ * libnetcdf and all that comes with it would make every start of the program three times
+ * as long.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_NETCDF_FILE_H
@@ -9,11 +12,16 @@
 #include "store.h"
 #include "sweep.h"
 
-extern const bool netcdf_file_there;
-
 /* Make the file at path from the values of the whole sweep, in the order of its units.
  * A failure is reported. */
-int netcdf_file_write(const char *path, const invocation *call, const sweep_task *task,
-                      const sweep_plan *plan, const store *values, const record *done);
+typedef int netcdf_file_writer(const char *path, const invocation *call,
+                               const sweep_task *task, const sweep_plan *plan,
+                               const store *values, const record *done);
+
+/* In the module. */
+netcdf_file_writer netcdf_file_write;
+
+/* Load the module; CLI_USAGE where there is none. */
+int netcdf_file_load(netcdf_file_writer **write);
 
 #endif

@@ -1,5 +1,4 @@
-/* Shortest decimal text by Schubfach (Giulietti 2020, "The Schubfach way to render
- * doubles"; docs/references.bib).
+/* Shortest decimal text by Schubfach (Giulietti20 of docs/references.bib).
  *
  * x = c 2^q. Every decimal between the middles to the neighbours of x reads back as x;
  * the interval holds a multiple of 10^k, but at most one of 10^(k+1), where k is

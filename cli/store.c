@@ -14,7 +14,7 @@
 #include "cli.h"
 #include "system.h"
 
-static int unwritable(const char *path) {
+int store_refuse(const char *path) {
     return cli_usage("--output: cannot write '%.200s': %s", path, strerror(errno));
 }
 
@@ -32,7 +32,7 @@ int store_look(const char *path, bool *regular) {
         return cli_usage("--output: the name of the file is empty");
     if (folder || (exists && access(path, W_OK) != 0)) {
         errno = folder ? EISDIR : errno;
-        return unwritable(path);
+        return store_refuse(path);
     }
     return CLI_DONE;
 }
@@ -41,16 +41,16 @@ int store_stream(store *s, const char *path) {
     *s = (store){.fd = STDOUT_FILENO, .name = path ? path : "standard output"};
     if (path)
         s->fd = open(path, O_WRONLY | O_CLOEXEC);
-    return s->fd >= 0 ? CLI_DONE : unwritable(path);
+    return s->fd >= 0 ? CLI_DONE : store_refuse(path);
 }
 
 int store_file(store *s, const char *name, uint64_t keep) {
     *s = (store){.name = name, .bytes = keep};
     s->fd = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (s->fd < 0)
-        return unwritable(name);
+        return store_refuse(name);
     if (ftruncate(s->fd, (off_t)keep) != 0 || lseek(s->fd, (off_t)keep, SEEK_SET) < 0) {
-        unwritable(name);
+        store_refuse(name);
         close(s->fd);
         return CLI_USAGE;
     }
@@ -117,6 +117,15 @@ int store_sync(const store *s) {
     if (fdatasync(s->fd) != 0 && errno != EINVAL && errno != EROFS)
         return failed(s);
     return CLI_DONE;
+}
+
+int store_sync_name(const char *name) {
+    store s = {.name = name, .fd = open(name, O_RDONLY | O_CLOEXEC)};
+    int rc = s.fd < 0 ? failed(&s) : store_sync(&s);
+
+    if (s.fd >= 0)
+        close(s.fd);
+    return rc;
 }
 
 int store_close(store *s) {

@@ -20,6 +20,9 @@ typedef struct {
  * or the place of one, from what is written in place (/dev/null, a pipe). */
 int store_look(const char *path, bool *regular);
 
+/* Say that -o cannot be written, and why: errno. CLI_USAGE. */
+int store_refuse(const char *path);
+
 /* Write to something that is no regular file, or to standard output for NULL. */
 int store_stream(store *s, const char *path);
 
@@ -40,6 +43,7 @@ void store_trim(store *s);
 
 /* Wait until all of it would survive a power failure. */
 int store_sync(const store *s);
+int store_sync_name(const char *name); /* of a file that others have written */
 
 /* A failure to close is a failure to write. */
 int store_close(store *s);

@@ -166,10 +166,9 @@ static bool join_threads(sweep *s) {
     double until = system_seconds() + last_wait;
 
     while (system_signal() && atomic_load(&s->n_working) > 0) {
-        struct timespec pause = {0, 5000000};
         if (system_seconds() > until)
             return false;
-        nanosleep(&pause, NULL);
+        system_pause(0.005);
     }
     for (size_t i = 0; i < s->n_threads; i++)
         pthread_join(s->thread[i], NULL);

@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep_file.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
@@ -28,10 +29,10 @@
 #include "team.h"
 #include "values.h"
 
-static const double note_every = 1;  /* seconds between checkpoints */
-static const double sync_every = 30; /* between those that survive a power failure */
+static const double note_every = 0.1; /* seconds between checkpoints */
+static const double sync_every = 30;  /* between those that survive a power failure */
 
-enum { OUT_BYTES = 1 << 20 };
+enum { OUT_BYTES = 1 << 20, NAME_SIZE = 4096, LONGEST_PATH = NAME_SIZE - 64 };
 
 typedef struct {
     const invocation *call;
@@ -39,7 +40,8 @@ typedef struct {
     sweep_plan plan;
     const char *path;             /* of -o; NULL for standard output */
     bool regular, direct, netcdf; /* direct: rows as they come */
-    char *part, *values, *journal;
+    netcdf_file_writer *write_netcdf;
+    char part[NAME_SIZE], values[NAME_SIZE], journal[NAME_SIZE];
     store grown; /* what the sweep writes to */
     checkpoint latest, safe;
     double noted, synced; /* when */
@@ -47,31 +49,29 @@ typedef struct {
 
 /* ---- before the sweep ---- */
 
-static char *with_suffix(const char *path, const char *suffix) {
-    size_t size = strlen(path) + strlen(suffix) + 1;
-    char *text = malloc(size);
-
-    if (text)
-        snprintf(text, size, "%s%s", path, suffix);
-    return text;
-}
-
 /* Where -o leads, and whether that goes with the other options. */
 static int look(sweep_out *o) {
     const invocation *call = o->call;
-    int format = 0, rc = value_choice(call, OPT_FORMAT, &format);
+    int format = 0, deflate, rc = value_choice(call, OPT_FORMAT, &format);
 
     o->netcdf = format == 1;
     o->direct = !o->netcdf && o->plan.shape != ROWS_CASE;
-    if (rc == CLI_DONE && o->netcdf && !netcdf_file_there)
-        return cli_usage("--format: 'netcdf' is not in this build, which found no "
-                         "libnetcdf; allowed: csv");
+    if (rc == CLI_DONE && !value_whole(option_text(call, OPT_DEFLATE), 0, 9, &deflate))
+        return cli_usage("--deflate: '%.60s' is not possible; allowed: whole numbers "
+                         "from 0 to 9",
+                         call->text[OPT_DEFLATE]);
+    if (rc == CLI_DONE && option_given(call, OPT_DEFLATE) && !o->netcdf)
+        return cli_usage("--deflate '%.60s' compresses no csv; allowed: with --format "
+                         "netcdf",
+                         call->text[OPT_DEFLATE]);
     if (option_given(call, OPT_OUTPUT)) {
         o->path = call->text[OPT_OUTPUT];
         rc = rc == CLI_DONE ? store_look(o->path, &o->regular) : rc;
     }
     if (rc == CLI_DONE && o->netcdf && !o->regular)
         return cli_usage("--format: 'netcdf' needs a file; allowed: with -o FILE");
+    if (rc == CLI_DONE && o->netcdf)
+        rc = netcdf_file_load(&o->write_netcdf);
     if (rc == CLI_DONE && option_given(call, OPT_RESUME) && !o->regular)
         return cli_usage("--resume goes on with a file; allowed: with -o FILE");
     return rc;
@@ -80,10 +80,14 @@ static int look(sweep_out *o) {
 static int name_files(sweep_out *o) {
     if (!o->regular)
         return CLI_DONE;
-    o->part = with_suffix(o->path, ".part");
-    o->values = with_suffix(o->path, ".part-values");
-    o->journal = with_suffix(o->path, ".part-journal");
-    return o->part && o->values && o->journal ? CLI_DONE : cli_no_memory();
+    if (strlen(o->path) > LONGEST_PATH) {
+        errno = ENAMETOOLONG;
+        return store_refuse(o->path);
+    }
+    snprintf(o->part, NAME_SIZE, "%s.part", o->path);
+    snprintf(o->values, NAME_SIZE, "%s.part-values", o->path);
+    snprintf(o->journal, NAME_SIZE, "%s.part-journal", o->path);
+    return CLI_DONE;
 }
 
 /* The file that grows. */
@@ -208,7 +212,8 @@ static int deliver(void *context, const sweep_tile *t) {
     if (rc != CLI_DONE)
         return rc;
     o->latest.units = t->first + t->n;
-    fwrite(t->notes.data, 1, t->notes.n, stderr);
+    if (t->notes.n)
+        fwrite(t->notes.data, 1, t->notes.n, stderr);
     now = system_seconds();
     return now - o->noted < note_every ? CLI_DONE
                                        : note(o, now - o->synced >= sync_every);
@@ -288,9 +293,11 @@ static int convert(sweep_out *o) {
     store to;
     int rc, closed;
 
-    if (o->netcdf)
-        return netcdf_file_write(o->part, o->call, o->task, &o->plan, &o->grown,
-                                 &o->latest.record);
+    if (o->netcdf) {
+        rc = o->write_netcdf(o->part, o->call, o->task, &o->plan, &o->grown,
+                             &o->latest.record);
+        return rc == CLI_DONE ? store_sync_name(o->part) : rc;
+    }
     rc = o->regular ? store_file(&to, o->part, 0) : store_stream(&to, o->path);
     if (rc != CLI_DONE)
         return rc;
@@ -406,8 +413,5 @@ int sweep_file(const invocation *call, sweep_task *task) {
     team_dismiss();
     record_free(&o.latest.record);
     record_free(&o.safe.record);
-    free(o.part);
-    free(o.values);
-    free(o.journal);
     return rc;
 }

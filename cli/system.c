@@ -23,6 +23,13 @@ double system_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void system_pause(double seconds) {
+    struct timespec t = {(time_t)seconds, 0};
+
+    t.tv_nsec = (long)(1e9 * (seconds - (double)t.tv_sec));
+    nanosleep(&t, NULL);
+}
+
 int system_cores(void) {
     cpu_set_t set;
     long cores = sysconf(_SC_NPROCESSORS_ONLN);

@@ -9,6 +9,8 @@
 /* Seconds of a clock that only goes forward. */
 double system_seconds(void);
 
+void system_pause(double seconds);
+
 /* Cores that this process may use, at least 1. */
 int system_cores(void);
 

@@ -14,6 +14,7 @@
 #include "cli.h"
 #include "csv.h"
 #include "system.h"
+#include "team.h"
 
 /* What a number may be. */
 typedef struct {
@@ -157,7 +158,11 @@ enum { MAX_THREADS = 4096 };
 int value_threads(const invocation *call, int *out) {
     const char *text = call->text[OPT_JOBS];
 
-    *out = system_cores();
+    *out = team_size() > 1 ? 1 : system_cores();
+    if (text && team_size() > 1 && strcmp(text, "1") != 0)
+        return cli_usage("--jobs: '%.60s' does not go with mpirun, whose ranks are one "
+                         "thread each; allowed: 1, and more ranks",
+                         text);
     if (text && !value_whole(text, 1, MAX_THREADS, out))
         return cli_usage(
             "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 to %d",

@@ -5,21 +5,40 @@
 
 #include <math.h>
 
+#include "core/vector.h"
+
 void pps_legendre(int m, int n_moments, double mu, double *p) {
-    /* P_m^m = sqrt((2m-1)!! / (2m)!!) (1 - mu^2)^(m/2) */
-    double sine2 = (1 - mu) * (1 + mu), top = 1;
-    for (int i = 1; i <= m; i++) {
-        top *= sqrt(sine2 * (2 * i - 1) / (2 * i));
+    pps_legendre_array(m, n_moments, 1, &mu, 1, p);
+}
+
+/* P_m^m = sqrt((2m-1)!! / (2m)!!) (1 - mu^2)^(m/2) */
+static inline void first_row(int m, size_t n, const double *restrict mu,
+                             double *restrict p) {
+    for (size_t i = 0; i < n; i++) {
+        p[i] = 1;
     }
-    p[0] = top;
-    double before = 0, here = top, norm = 0; /* norm = sqrt(l^2 - m^2) at l */
+    for (int j = 1; j <= m; j++) {
+        for (size_t i = 0; i < n; i++) {
+            double sine2 = (1 - mu[i]) * (1 + mu[i]);
+            p[i] *= sqrt(sine2 * (2 * j - 1) / (2 * j));
+        }
+    }
+}
+
+PPS_CLONES void pps_legendre_array(int m, int n_moments, size_t n, const double *mu,
+                                   size_t stride, double *p) {
+    first_row(m, n, mu, p);
+    double norm = 0; /* sqrt(l^2 - m^2) at l */
     for (int l = m; l + 1 < n_moments; l++) {
         double next_norm = sqrt((double)(l + 1 - m) * (l + 1 + m));
-        double next = ((2 * l + 1) * mu * here - norm * before) / next_norm;
-        before = here;
-        here = next;
+        double two = (2 * l + 1) / next_norm, back = norm / next_norm;
+        const double *restrict here = p + (size_t)(l - m) * stride;
+        const double *restrict before = l > m ? here - stride : here; /* back = 0 */
+        double *restrict next = p + (size_t)(l - m + 1) * stride;
+        for (size_t i = 0; i < n; i++) {
+            next[i] = two * mu[i] * here[i] - back * before[i];
+        }
         norm = next_norm;
-        p[l + 1 - m] = here;
     }
 }
 

@@ -16,6 +16,11 @@ struct pps_method_ops {
     pps_status (*init)(void *state, const pps_slab *slab, const pps_options *opts);
     /* Light the slab with a beam of 1 along mu0, black below. */
     pps_status (*solve)(void *state, double thickness, double mu0);
+    /* The same for n beams at once, which outputs then have one after the other; mu0 stays
+     * valid. NULL, or UNSUPPORTED: one at a time, by `solve`. */
+    pps_status (*solve_beams)(void *state, double thickness, size_t n,
+                              const double *mu0);
+    void (*query_beam)(const void *state, size_t b, pps_info *info); /* then, of one */
     /* Light it with an isotropic radiance of 1 from above instead, black below. The
      * outputs then include the uncollided sky light; flux.direct is 0 and flux.mean is
      * flux.mean_diffuse. NULL: the method has no sky, and so no ground either (which

@@ -24,19 +24,22 @@ static double sinh_over(double k, double t) {
     return z > 1e-4 ? sinh(z) / k : t * (1 + z * z / 6);
 }
 
+static pps_mode_kind choose_kind(double k, double w, double q) {
+    if (k * w < 1) { /* false for k = 0 in a half-space, where 0 * inf is NaN */
+        return w * q < 2 ? PPS_MODE_THIN : PPS_MODE_SMALL;
+    }
+    return fabs(k - q) < q / 2 ? PPS_MODE_RESONANT : PPS_MODE_NORMAL;
+}
+
 void pps_mode_beam(pps_mode *mode, double k, double w, double q, double alpha,
                    double beta) {
-    mode->k = k;
-    mode->w = w;
-    mode->q = q;
-    mode->alpha = alpha;
-    mode->beta = beta;
-    mode->c1 = mode->c2 = 0;
-    if (k * w < 1) { /* false for k = 0 in a half-space, where 0 * inf is NaN */
-        mode->kind = w * q < 2 ? PPS_MODE_THIN : PPS_MODE_SMALL;
-    } else {
-        mode->kind = fabs(k - q) < q / 2 ? PPS_MODE_RESONANT : PPS_MODE_NORMAL;
-    }
+    pps_mode_beam_of_kind(mode, choose_kind(k, w, q), k, w, q, alpha, beta);
+}
+
+void pps_mode_beam_of_kind(pps_mode *mode, pps_mode_kind kind, double k, double w,
+                           double q, double alpha, double beta) {
+    *mode =
+        (pps_mode){.kind = kind, .k = k, .q = q, .w = w, .alpha = alpha, .beta = beta};
     switch (mode->kind) {
     case PPS_MODE_THIN:
         mode->p = mode->r = 0;

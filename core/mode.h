@@ -34,6 +34,10 @@ typedef struct pps_mode {
 void pps_mode_beam(pps_mode *mode, double k, double w, double q, double alpha,
                    double beta);
 
+/* The same with a kind of the caller's choice among those that are good there. */
+void pps_mode_beam_of_kind(pps_mode *mode, pps_mode_kind kind, double k, double w,
+                           double q, double alpha, double beta);
+
 /* The particular solution at the top (tau = 0) and the bottom (tau = w). */
 void pps_mode_particular(const pps_mode *mode, double psi[2], double phi[2]);
 

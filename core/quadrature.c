@@ -10,31 +10,69 @@
 
 #include <math.h>
 
-/* P_n(cos theta) and its derivative in theta. */
-static double legendre_theta(int n, double theta, double *derivative) {
-    double u = 2 * sin(theta / 2) * sin(theta / 2), p = 1, difference = 0;
+#include "core/vector.h"
+
+enum { BLOCK = 64 }; /* nodes handled together */
+
+/* P_n(cos theta) and sin(theta) times its derivative in theta, for many u = 1 - cos theta
+ * at once. */
+PPS_CLONES static void legendre_theta(int n, size_t n_nodes, const double *restrict u,
+                                      double *restrict p, double *restrict slope) {
+    double difference[BLOCK];
+    for (size_t i = 0; i < n_nodes; i++) {
+        p[i] = 1;
+        difference[i] = 0;
+    }
     for (int l = 0; l < n; l++) {
         /* (l + 1) (P_(l+1) - P_l) = l (P_l - P_(l-1)) - (2l + 1) u P_l */
-        difference = (l * difference - (2 * l + 1) * u * p) / (l + 1);
-        p += difference;
+        double back = (double)l / (l + 1), here = (double)(2 * l + 1) / (l + 1);
+        for (size_t i = 0; i < n_nodes; i++) {
+            difference[i] = back * difference[i] - here * u[i] * p[i];
+            p[i] += difference[i];
+        }
     }
-    *derivative = n * (difference - u * p) / sin(theta);
-    return p;
+    for (size_t i = 0; i < n_nodes; i++) {
+        slope[i] = n * (difference[i] - u[i] * p[i]);
+    }
+}
+
+/* Nodes and weights `first` to first + count - 1 of those below 1/2, and their mirrors. */
+static void gauss_block(int n, size_t first, size_t count, double *node,
+                        double *weight) {
+    const double pi = 3.14159265358979323846;
+    double theta[BLOCK], u[BLOCK], sine[BLOCK], p[BLOCK], slope[BLOCK];
+    size_t last = (size_t)n - 1;
+    for (size_t i = 0; i < count; i++) {
+        theta[i] = pi * ((double)(first + i) + 0.75) / (n + 0.5);
+    }
+    for (int step = 0;; step++) { /* quadratic from 1e-2 / n^2 on */
+        for (size_t i = 0; i < count; i++) {
+            double s = sin(theta[i] / 2), c = cos(theta[i] / 2);
+            size_t low = first + i, high = last - low;
+            node[low] = s * s; /* (1 - x)/2 */
+            node[high] = high == low ? 0.5 : c * c;
+            sine[i] = 2 * s * c;
+            u[i] = 2 * s * s;
+        }
+        legendre_theta(n, count, u, p, slope);
+        if (step == 4) {
+            break;
+        }
+        for (size_t i = 0; i < count; i++) {
+            theta[i] -= p[i] * sine[i] / slope[i];
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        double dp = slope[i] / sine[i];
+        weight[first + i] = weight[last - (first + i)] = 1 / (dp * dp);
+    }
 }
 
 void pps_gauss_unit(int n, double *node, double *weight) {
-    const double pi = 3.14159265358979323846;
-    for (int i = 0; i < (n + 1) / 2; i++) {
-        double theta = pi * (i + 0.75) / (n + 0.5), slope;
-        for (int step = 0; step < 5; step++) { /* quadratic from 1e-2 / n^2 on */
-            double p = legendre_theta(n, theta, &slope);
-            theta -= p / slope;
-        }
-        legendre_theta(n, theta, &slope);
-        int mirror = n - 1 - i;
-        node[i] = sin(theta / 2) * sin(theta / 2); /* (1 - x)/2 */
-        node[mirror] = mirror == i ? 0.5 : cos(theta / 2) * cos(theta / 2);
-        weight[i] = weight[mirror] = 1 / (slope * slope);
+    size_t half = (size_t)(n + 1) / 2;
+    for (size_t first = 0; first < half; first += BLOCK) {
+        size_t left = half - first;
+        gauss_block(n, first, left < BLOCK ? left : BLOCK, node, weight);
     }
 }
 

@@ -5,22 +5,25 @@
 #ifndef PPS_METHODS_AUTO_GRID_H
 #define PPS_METHODS_AUTO_GRID_H
 
-/* Candidates, cheapest first: name and streams (of `exact`; 0 elsewhere). */
+/* Candidates: name, streams (of `exact`; 0 elsewhere) and cost, that is the time of one
+ * more evaluation of many radiances, hemispheric = 1. It is what `ppscat chart` measures,
+ * to about a factor of 1.5 over its regimes; that of `exact` grows as streams^1.6 to
+ * streams^2. The table has them in this order; costs may change without it. */
 #define PPS_AUTO_CANDIDATES(X)                                                         \
-    X("hemispheric", 0)                                                                \
-    X("single", 0)                                                                     \
-    X("eddington", 0)                                                                  \
-    X("spp-refined", 0)                                                                \
-    X("fourstream", 0)                                                                 \
-    X("exact", 8)                                                                      \
-    X("exact", 12)                                                                     \
-    X("exact", 16)                                                                     \
-    X("exact", 24)                                                                     \
-    X("exact", 32)                                                                     \
-    X("exact", 48)                                                                     \
-    X("exact", 64)                                                                     \
-    X("exact", 96)                                                                     \
-    X("exact", 128)
+    X("hemispheric", 0, 1)                                                             \
+    X("single", 0, 15)                                                                 \
+    X("eddington", 0, 18)                                                              \
+    X("spp-refined", 0, 40)                                                            \
+    X("fourstream", 0, 20)                                                             \
+    X("exact", 8, 64)                                                                  \
+    X("exact", 12, 144)                                                                \
+    X("exact", 16, 256)                                                                \
+    X("exact", 24, 576)                                                                \
+    X("exact", 32, 1024)                                                               \
+    X("exact", 48, 2304)                                                               \
+    X("exact", 64, 4096)                                                               \
+    X("exact", 96, 9216)                                                               \
+    X("exact", 128, 16384)
 
 /* What is kept of an error. */
 enum { PPS_AUTO_FIELD, PPS_AUTO_REFLECTANCE, PPS_AUTO_TRANSMITTANCE, PPS_AUTO_METRICS };
@@ -36,7 +39,7 @@ enum {
     PPS_AUTO_N_G = sizeof pps_auto_g / sizeof pps_auto_g[0],
     PPS_AUTO_N_THICKNESS = sizeof pps_auto_thickness / sizeof pps_auto_thickness[0],
     PPS_AUTO_N_MU0 = sizeof pps_auto_mu0 / sizeof pps_auto_mu0[0],
-#define PPS_AUTO_COUNT(name, streams) +1
+#define PPS_AUTO_COUNT(name, streams, cost) +1
     PPS_AUTO_N_CANDIDATES = 0 PPS_AUTO_CANDIDATES(PPS_AUTO_COUNT),
 #undef PPS_AUTO_COUNT
     PPS_AUTO_N_CELLS =

@@ -1,5 +1,7 @@
 /* Makes data/auto_errors.csv, the errors of every candidate of the method `auto` over a
- * grid of slabs, against `exact` at 1e-7 (or, where it refuses, 192 streams): `cmake --build build/release --target auto-table`.
+ * grid of slabs, against `exact` at 1e-7, or with 192 streams where it refuses:
+ *
+ *     cmake --build build/release --target auto-table      (10 minutes on one core)
  *
  * One row a slab: albedo,g,thickness,mu0,rms_rel,reflectance,transmittance, the last three
  * with one character a candidate (methods/auto_grid.h says which and how). rms_rel is that
@@ -26,7 +28,7 @@ static const struct {
     const char *name;
     int streams;
 } candidate[] = {
-#define ROW(name, streams) {name, streams},
+#define ROW(name, streams, cost) {name, streams},
     PPS_AUTO_CANDIDATES(ROW)
 #undef ROW
 };

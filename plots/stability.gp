@@ -42,9 +42,14 @@ rank(w) = w > 1e300 ? 7 : sum [i = 1:words(thicknesses)] \
     (real(word(thicknesses, i)) <= w * (1 + 1e-9) ? 1 : 0)
 band(i) = 8.5 * (words(albedos) - i)
 
-wide = 160; edge = 135; map = 230; beams = 330; gap = 26; head = 70; foot = 55
+wide = 172; edge = 150; map = 230; beams = 330; gap = 44; head = 76; foot = 60
+high_bank = map + beams + 3 * gap
+
+# A long name on two lines.
+broken(name) = strlen(name) < 18 ? name : \
+    name[1:strstrt(name, "-")]."\n".name[strstrt(name, "-")+1:*]
 w = edge + columns * wide + 10
-h = head + banks * (map + beams + 3 * gap + 20) + foot
+h = head + banks * high_bank + foot
 set terminal pngcairo enhanced font "DejaVu Sans,11" linewidth 1.2 background rgb "white" \
     size w,h
 set output png
@@ -55,7 +60,7 @@ set style fill solid 1.0 noborder
 set label 1 at screen 0.5,1-18.0/h center font ",16" \
     "Where methods hold and where they fail"
 set label 2 at screen 0.5,1-42.0/h center \
-    "above: albedo and thickness, g = 0.5, μ_0 = 0.6;   below: beams on and beside special μ_0"
+    "Above: albedo and thickness, g = 0.5, μ_0 = 0.6.   Below: beams on and beside special μ_0; in each band thickness 10^{-6} (bottom), 10^{-3}, 0.1, 1, 10, 10^3, ∞ (top)."
 
 # Edges of a panel, in pixels from the top left.
 panel = 'set lmargin at screen (edge+x*wide+3.0)/w; set rmargin at screen (edge+(x+1)*wide-3.0)/w; set tmargin at screen 1-y/(1.0*h); set bmargin at screen 1-(y+high)/(1.0*h)'
@@ -64,10 +69,10 @@ do for [m = 1:words(methods)] {
     name = word(methods, m)
     x = (m - 1) % columns
     bank = (m - 1) / columns
-    y = head + bank * (map + beams + 3 * gap + 20) + gap
+    y = head + bank * high_bank + gap
     high = map
     @panel
-    set title name offset 0,-0.7 font ",13"
+    set title broken(name) offset 0,-0.7 font ",11"
     set xrange [-9.5:10.9]
     set yrange [-0.5:16.9]
     set xtics ("10^{-6}" -6, "1" 0, "10^6" 6, "∞" 10.4)
@@ -84,7 +89,7 @@ do for [m = 1:words(methods)] {
         with boxxyerror linecolor rgb variable
     unset label 1; unset label 2
 
-    y = y + map + gap + 24
+    y = y + map + gap
     high = beams
     @panel
     set title ""

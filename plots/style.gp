@@ -30,14 +30,21 @@ colour(method) = method eq "exact"       ? 0x000000 : \
                  method eq "rk"          ? 0x762A83 : \
                  method eq "rk-shooting" ? 0xB58BC9 : \
                  method eq "mc"          ? 0xCC0000 : \
-                 method eq "auto"        ? 0x777777 : 0x999999
+                 method eq "auto"        ? 0x777777 : \
+                 method eq "nanodisort"     ? 0x1F77B4 : \
+                 method eq "PythonicDISORT" ? 0xBCBD22 : \
+                 method eq "disortpp"       ? 0xFF7F0E : 0x999999
 dash(method) = method eq "spp-printed" ? 4 : method eq "single" ? 3 : \
                method eq "hemispheric" ? 2 : method eq "spp-literal" ? 5 : 1
 
-# The shape of a point: discs for closed forms, others for what can be turned finer.
+# The shape of a point: discs for closed forms, others for what can be turned finer, open
+# for other people's programs.
 symbol(method) = method eq "adding"      ? 5 : method eq "mc"   ? 9 : \
                  method eq "rk-shooting" ? 11 : method eq "rk"  ? 13 : \
-                 method eq "auto"        ? 15 : 7
+                 method eq "auto"        ? 15 : \
+                 method eq "nanodisort"     ? 4 : \
+                 method eq "PythonicDISORT" ? 8 : \
+                 method eq "disortpp"       ? 12 : 7
 
 # canvas(width, height) in pixels, as a macro: `@canvas 1200,800`.
 canvas = 'set terminal pngcairo enhanced font "DejaVu Sans,12" linewidth 1.4 background rgb "white" size'

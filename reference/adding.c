@@ -161,9 +161,10 @@ static double contrast(const pps_slab *slab) {
 }
 
 /* The cosine below which nodes need not follow the light. Directions nearer to the
- * horizon see the very skin of the slab, where such light matters. */
+ * horizon, the beam's too, know the very skin of the slab, where such light matters. */
 static double least_cosine(const run *r) {
-    double unit = fmin(r->adding->slab.thickness, 1), least = 1e-2 * unit;
+    double unit = fmin(r->adding->slab.thickness, 1);
+    double least = fmin(1e-2 * unit, r->adding->mu0);
     for (int i = 0; i < r->n_out; i++) {
         least = fmin(least, r->out[i]);
     }

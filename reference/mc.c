@@ -16,8 +16,7 @@
  * Sampled is the rest: the photon flies, scatters with weight albedo, is reflected or
  * escapes. Light photons and, in thick slabs, long histories are thinned by roulette.
  *
- * References: Marchuk et al. 1980 for local estimates; Salmon et al. 2011 for counter-based
- * random numbers.
+ * References: Marchuk80 for local estimates; Salmon11 for counter-based random numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/mc.h"
@@ -59,6 +58,9 @@ static const double REACH = 80;
 /* A standard error is trusted up to these: the relative variance of the variance, and the
  * error relative to the sampled part of the value. */
 static const double MOST_VARIANCE_OF_VARIANCE = 0.05, MOST_RELATIVE_ERROR = 0.2;
+
+/* ... and, for radiances, from so many photons times (1 - |g|)^2 on. */
+static const double LEAST_PHOTONS_IN_PEAK = 30;
 
 typedef enum { BEAM, SKY, N_SOURCES } source;
 
@@ -118,7 +120,7 @@ double pps_mc_versine(double g, double u) {
 static direction turned(direction axis, double versine, double psi) {
     double cosine = 1 - versine, sine = sqrt(versine * (2 - versine));
     double along = sine * cos(psi), across = sine * sin(psi);
-    /* Two vectors normal to the axis (Duff et al. 2017). */
+    /* Two vectors normal to the axis (Duff17). */
     double sign = copysign(1, axis.mu), a = -1 / (sign + axis.mu);
     double b = axis.x * axis.y * a;
     direction to = {
@@ -384,20 +386,29 @@ static bool nothing_sampled(const problem *p, size_t i) {
     return p->slab.albedo == 0 || (at_end && !mean);
 }
 
+/* Whether the spread of radiances may miss what carries them: light that comes within the
+ * phase function's peak, 1 - |g| wide, of a wanted direction. A sample that happens to
+ * have none of it looks narrow, and is wrong. */
+static bool peak_is_missed(const problem *p) {
+    double width = 1 - fabs(p->slab.g);
+    return p->n_mu > 0 && (double)p->photons * width * width < LEAST_PHOTONS_IN_PEAK;
+}
+
 /* Values and standard errors of all outputs from the sums of powers. */
 static void summarise(const problem *p, const double *total, double *value,
                       double *error) {
     double n = (double)p->photons;
     for (size_t i = 0; i < p->n; i++) {
         value[i] = p->fixed[i] + total[i * N_POWERS] / n;
-        error[i] =
-            nothing_sampled(p, i) ? 0 : standard_error_of(total + i * N_POWERS, n);
+        error[i] = nothing_sampled(p, i) ? 0
+                   : peak_is_missed(p)   ? (double)INFINITY
+                                         : standard_error_of(total + i * N_POWERS, n);
     }
 }
 
 /* ---- the part that is not sampled ---- */
 
-/* E1 by its series below 1, E2 by its continued fraction above (Abramowitz and Stegun
+/* E1 by its series below 1, E2 by its continued fraction above (AS64
  * 5.1.11, 5.1.22), the others by n E_(n+1) = e^-x - x E_n. */
 void pps_mc_expint(double x, double *e2, double *e3) {
     if (x < 1) {

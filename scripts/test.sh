@@ -6,7 +6,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 select=(--label-exclude slow)
-packages=("${build_packages[@]}" clang-format)
+packages=("${build_packages[@]}" clang-format libopenmpi-dev openmpi-bin)
 case "$#:${1-}" in
 0:) ;;
 1:--all) select=() packages+=(gnuplot-nox fonts-dejavu-core) ;;

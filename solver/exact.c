@@ -28,6 +28,11 @@ typedef struct {
     pps_options opts;
     double mu0;
     bool sky; /* isotropic light instead of the beam */
+    /* More beams than one, at once (given streams only): */
+    size_t n_beams;
+    const double *beams;
+    size_t n_orders_used;
+    int *orders_used; /* of each beam */
     /* Solvers kept; a given number of streams uses kept[0]. */
     pps_dom *kept[N_LADDER][PPS_NODES_GRADED + 1];
     pps_info info;
@@ -47,6 +52,7 @@ static pps_status exact_init(void *state, const pps_slab *slab,
 
 static void exact_clear(void *state) {
     exact *e = state;
+    free(e->orders_used);
     for (int i = 0; i < N_LADDER; i++) {
         for (int nodes = 0; nodes <= PPS_NODES_GRADED; nodes++) {
             pps_dom_free(e->kept[i][nodes]);
@@ -59,6 +65,31 @@ static pps_status exact_solve(void *state, double thickness, double mu0) {
     e->slab.thickness = thickness;
     e->mu0 = mu0;
     e->sky = false;
+    e->n_beams = 1;
+    return PPS_OK;
+}
+
+static pps_status exact_solve_beams(void *state, double thickness, size_t n,
+                                    const double *mu0) {
+    exact *e = state;
+    if (e->opts.streams == 0) {
+        return PPS_ERR_UNSUPPORTED; /* each beam climbs by itself */
+    }
+    if (n > e->n_orders_used) {
+        int *orders = realloc(e->orders_used, n * sizeof *orders);
+        if (!orders) {
+            return PPS_ERR_MEMORY;
+        }
+        e->orders_used = orders;
+        e->n_orders_used = n;
+    }
+    e->slab.thickness = thickness;
+    e->beams = mu0;
+    e->sky = false;
+    e->n_beams = n;
+    for (size_t b = 0; b < n; b++) {
+        e->orders_used[b] = 1;
+    }
     return PPS_OK;
 }
 
@@ -67,6 +98,7 @@ static pps_status exact_solve_sky(void *state, double thickness) {
     e->slab.thickness = thickness;
     e->mu0 = 1;
     e->sky = true;
+    e->n_beams = 1;
     return PPS_OK;
 }
 
@@ -78,39 +110,52 @@ static pps_nodes nodes_of(const exact *e, int streams) {
                                            : pps_dom_choose_nodes(&e->slab, streams);
 }
 
+/* Is the solver solved, to so many orders, for these beams? */
+static bool solved_for(const pps_dom *dom, bool sky, size_t n, const double *mu0,
+                       int orders) {
+    bool same = dom->beams.n == n && dom->beams.sky == sky, azimuth = false;
+    for (size_t b = 0; b < n && same && !sky; b++) {
+        same = dom->beams.mu0[b] == mu0[b];
+        azimuth = azimuth || mu0[b] < 1;
+    }
+    return same && (!azimuth || dom->n_solved >= orders ||
+                    dom->n_solved == dom->discrete.n_moments);
+}
+
 /* The solver of a rung with at least so many orders, made and solved for the present slab
- * and beam. */
-static pps_status rung_solve(exact *e, int index, int streams, int orders,
-                             double azimuth, pps_dom **out) {
+ * and n beams. */
+static pps_status rung_solve_beams(exact *e, int index, int streams, int orders,
+                                   double azimuth, size_t n, const double *mu0,
+                                   pps_dom **out) {
     pps_nodes nodes = nodes_of(e, streams);
     pps_dom **kept = &e->kept[index][nodes];
-    if (*kept && (*kept)->n_orders < orders &&
-        (*kept)->n_orders < (*kept)->discrete.n_moments) {
-        pps_dom_free(*kept);
-        *kept = NULL;
-    }
+    pps_status status = PPS_OK;
     if (!*kept) {
         pps_dom_opts opts = {.streams = streams,
                              .nodes = nodes,
                              .delta_m = e->opts.delta_m,
-                             .orders = orders,
+                             .orders = 1,
                              .tolerance = azimuth};
-        pps_status status = pps_dom_create(&e->slab, &opts, kept);
-        if (status) {
-            return status;
-        }
+        status = pps_dom_create(&e->slab, &opts, kept);
+    } else if ((*kept)->slab.thickness != e->slab.thickness) {
+        status = pps_dom_set_thickness(*kept, e->slab.thickness);
+    }
+    if (!status) {
+        status = pps_dom_want_orders(*kept, orders, azimuth);
+    }
+    if (status) {
+        return status;
     }
     *out = *kept;
-    if ((*kept)->slab.thickness != e->slab.thickness) {
-        pps_status status = pps_dom_set_thickness(*kept, e->slab.thickness);
-        if (status) {
-            return status;
-        }
-    }
-    if ((*kept)->mu0 == e->mu0 && (*kept)->sky == e->sky) {
+    if (solved_for(*kept, e->sky, n, mu0, orders)) {
         return PPS_OK;
     }
-    return e->sky ? pps_dom_solve_sky(*kept) : pps_dom_solve(*kept, e->mu0);
+    return e->sky ? pps_dom_solve_sky(*kept) : pps_dom_solve_beams(*kept, n, mu0);
+}
+
+static pps_status rung_solve(exact *e, int index, int streams, int orders,
+                             double azimuth, pps_dom **out) {
+    return rung_solve_beams(e, index, streams, orders, azimuth, 1, &e->mu0, out);
 }
 
 /* What is asked of a rung: a radiance or fluxes, as n plain numbers. */
@@ -144,7 +189,7 @@ static pps_status rung_radiance(exact *e, int index, int streams, double azimuth
             return status;
         }
         int used = orders < dom->n_orders ? orders : dom->n_orders;
-        status = pps_dom_radiance_orders(dom, used, what->at, radiance, &rest);
+        status = pps_dom_radiance_orders(dom, 0, 1, used, what->at, radiance, &rest);
         e->info.orders = used;
         if (status || rest <= 10 * azimuth) {
             return status;
@@ -152,12 +197,16 @@ static pps_status rung_radiance(exact *e, int index, int streams, double azimuth
     }
 }
 
-/* The answer of one rung as numbers, and what it used. */
-static pps_status rung_answer(exact *e, int index, int streams, double azimuth,
-                              const request *what, double *answer) {
+static void describe(exact *e, int streams) {
     e->info.streams = streams;
     e->info.nodes = nodes_of(e, streams);
     e->info.delta_m = e->opts.delta_m != PPS_DELTA_M_OFF && e->slab.g > 0;
+}
+
+/* The answer of one rung as numbers, and what it used. */
+static pps_status rung_answer(exact *e, int index, int streams, double azimuth,
+                              const request *what, double *answer) {
+    describe(e, streams);
     return what->at ? rung_radiance(e, index, streams, azimuth, what, answer)
                     : rung_fluxes(e, index, streams, what, (pps_flux *)(void *)answer);
 }
@@ -250,11 +299,69 @@ static pps_status climb(exact *e, const request *what, double *const *kept,
     return n_answers > 0 ? PPS_ERR_TOLERANCE : PPS_ERR_INDEFINITE;
 }
 
+/* ---- many beams of given streams ---- */
+
+static const double TO_ROUNDING = 1e-15; /* the azimuth series of given streams */
+
+/* Beam b by itself, when its azimuth series takes more orders than were expected. */
+static pps_status beam_again(exact *e, size_t b, const request *what, double *answer) {
+    e->mu0 = e->beams[b];
+    pps_status status = rung_answer(e, 0, e->opts.streams, TO_ROUNDING, what, answer);
+    e->orders_used[b] = e->info.orders;
+    return status;
+}
+
+static pps_status radiances_at_once(exact *e, const request *what, double *radiance) {
+    int streams = e->opts.streams;
+    int orders = pps_dom_orders_for(e->slab.g, TO_ROUNDING, streams);
+    double *rest = malloc(e->n_beams * sizeof *rest);
+    pps_dom *dom;
+    if (!rest) {
+        return PPS_ERR_MEMORY;
+    }
+    pps_status status = rung_solve_beams(e, 0, streams, orders, TO_ROUNDING, e->n_beams,
+                                         e->beams, &dom);
+    if (!status) {
+        int used = orders < dom->n_orders ? orders : dom->n_orders;
+        /* The directions of a sweep stay the same. */
+        status = pps_view_is_of(dom->view, what->at->n_mu, what->at->mu)
+                     ? PPS_OK
+                     : pps_dom_set_directions(dom, what->at->n_mu, what->at->mu);
+        if (!status) {
+            status = pps_dom_radiance_orders(dom, 0, e->n_beams, used, what->at,
+                                             radiance, rest);
+        }
+        for (size_t b = 0; b < e->n_beams && !status; b++) {
+            e->orders_used[b] = e->beams[b] == 1 ? 1 : used;
+            if (rest[b] > 10 * TO_ROUNDING) {
+                status = beam_again(e, b, what, radiance + b * what->n);
+            }
+        }
+    }
+    free(rest);
+    return status;
+}
+
+static pps_status fluxes_at_once(exact *e, const request *what, pps_flux *flux) {
+    pps_dom *dom;
+    pps_status status =
+        rung_solve_beams(e, 0, e->opts.streams, 1, 0, e->n_beams, e->beams, &dom);
+    for (size_t b = 0; b < e->n_beams; b++) {
+        e->orders_used[b] = 1;
+    }
+    return status ? status : pps_dom_flux(dom, what->n_tau, what->tau, flux);
+}
+
 static pps_status produce(exact *e, const request *what, double *answer) {
     e->info.error_estimate = (double)NAN;
     if (e->opts.streams > 0) {
         /* Given streams: the azimuth series to rounding. */
-        return rung_answer(e, 0, e->opts.streams, 1e-15, what, answer);
+        if (e->n_beams > 1) {
+            describe(e, e->opts.streams);
+            return what->at ? radiances_at_once(e, what, answer)
+                            : fluxes_at_once(e, what, (pps_flux *)(void *)answer);
+        }
+        return rung_answer(e, 0, e->opts.streams, TO_ROUNDING, what, answer);
     }
     double *memory = malloc((MOST_AGREEING * what->n + 1) * sizeof *memory);
     if (!memory) {
@@ -287,11 +394,19 @@ static void exact_query(const void *state, pps_info *info) {
     *info = ((const exact *)state)->info;
 }
 
+static void exact_query_beam(const void *state, size_t b, pps_info *info) {
+    const exact *e = state;
+    *info = e->info;
+    info->orders = b < e->n_beams ? e->orders_used[b] : 0;
+}
+
 static const pps_method_ops ops = {
     .state_size = sizeof(exact),
     .init = exact_init,
     .solve = exact_solve,
     .solve_sky = exact_solve_sky,
+    .solve_beams = exact_solve_beams,
+    .query_beam = exact_query_beam,
     .radiance = exact_radiance,
     .flux = exact_flux,
     .query = exact_query,

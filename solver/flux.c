@@ -3,42 +3,208 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
 #include "core/hemisphere.h"
+#include "core/lanes.h"
+#include "core/series.h"
 #include "solver/dom.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* Sums over modes at one scaled depth: the hemispheric fluxes and the mean intensity. */
+/* A block of beams at one scaled depth: sums over modes. */
 typedef struct {
-    double even, odd; /* (down + up) and (down - up), over 2 */
-    double mean, size;
+    double even[PPS_LANES], odd[PPS_LANES];  /* (down + up) and (down - up), over 2 */
+    double mean[PPS_LANES], size[PPS_LANES]; /* mean intensity; |even| + |odd| summed */
 } mode_sums;
 
-static mode_sums sum_modes(const pps_order *order, double tau) {
-    mode_sums sum = {0};
-    for (int j = 0; j < order->n; j++) {
-        double psi, phi;
-        pps_mode_state(&order->mode[j], tau, &psi, &phi);
-        /* V of l = 0 is the mean intensity, W of l = 1 the net flux of mode j. */
-        double even = PI * order->flux_s[j] * psi;
-        double odd = PI * order->w[(size_t)j * (size_t)order->n_odd] * phi;
-        sum.even += even;
-        sum.odd += odd;
-        sum.mean += order->v[(size_t)j * (size_t)order->n_even] * psi / 2;
-        sum.size += fabs(even) + fabs(odd);
-    }
-    return sum;
+/* What psi_j and phi_j of a mode add to them. */
+typedef struct {
+    double even, odd, mean;
+} mode_weights;
+
+/* V of l = 0 is the mean intensity, W of l = 1 the net flux of mode j. */
+static inline mode_weights weights_of(const pps_order *order, size_t j) {
+    return (mode_weights){.even = PI * order->flux_s[j],
+                          .odd = PI * order->w[j * (size_t)order->n_odd],
+                          .mean = order->v[j * (size_t)order->n_even] / 2};
 }
+
+/* The same for half a block, in registers. */
+typedef struct {
+    four even, odd, mean, size;
+} four_sums;
+
+PPS_LANE four_sums sums_at(const mode_sums *sum, size_t at) {
+    return (four_sums){four_at(sum->even + at), four_at(sum->odd + at),
+                       four_at(sum->mean + at), four_at(sum->size + at)};
+}
+
+PPS_LANE void sums_to(mode_sums *sum, size_t at, const four_sums *value) {
+    four_to(sum->even + at, value->even);
+    four_to(sum->odd + at, value->odd);
+    four_to(sum->mean + at, value->mean);
+    four_to(sum->size + at, value->size);
+}
+
+PPS_LANE void add_mode(const mode_weights *of, four psi, four phi, four_sums *sum) {
+    four even = of->even * psi, odd = of->odd * phi;
+    sum->even += even;
+    sum->odd += odd;
+    sum->mean += of->mean * psi;
+    sum->size += four_abs(even) + four_abs(odd);
+}
+
+PPS_CLONES static void add_values(const mode_weights *of, const double *psi,
+                                  const double *phi, mode_sums *sum) {
+    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+        four_sums part = sums_at(sum, at);
+        add_mode(of, four_at(psi + at), four_at(phi + at), &part);
+        sums_to(sum, at, &part);
+    }
+}
+
+/* What the loops below work on: beams first .. first + PPS_LANES - 1 (fewer at the end). */
+typedef struct {
+    const pps_dom *dom;
+    size_t first, n;
+} beam_block;
+
+/* Depths that are handled together. */
+enum { DEPTHS = 16 };
+
+/* Modes k w < 1: from the series of the nearer edge. */
+static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
+                       mode_sums *sum) {
+    const pps_order *order = &block->dom->order[0];
+    const pps_beams *beams = &block->dom->beams;
+    const pps_solution *s = &order->solution;
+    double w = pps_dom_scaled_thickness(block->dom), one[PPS_LANES];
+    double a[2][PPS_SERIES_TERMS * PPS_LANES], b[2][PPS_SERIES_TERMS * PPS_LANES];
+    for (int l = 0; l < PPS_LANES; l++) {
+        one[l] = 1;
+    }
+    for (size_t j = 0; j < (size_t)order->n_series; j++) {
+        mode_weights of = weights_of(order, j);
+        size_t at = j * beams->padded + block->first;
+        for (int side = 0; side < 2; side++) {
+            pps_series series = {.q = beams->q + block->first,
+                                 .beam = side ? beams->decay + block->first : one,
+                                 .alpha = s->source_a + at,
+                                 .beta = s->source_b + at,
+                                 .psi = s->edge_psi[side] + at,
+                                 .phi = s->edge_phi[side] + at};
+            pps_series_expand(&series, 0, side ? -w : w, order->k[j], a[side], b[side]);
+        }
+        for (size_t k = 0; k < n_tau; k++) {
+            double psi[PPS_LANES], phi[PPS_LANES];
+            int side = tau[k] > w / 2;
+            double u = (side ? w - tau[k] : tau[k]) / w;
+            pps_series_value(a[side], u, psi);
+            pps_series_value(b[side], u, phi);
+            add_values(&of, psi, phi, &sum[k]);
+        }
+    }
+}
+
+/* e^(-k tau) and e^(-k (w - tau)) of every mode, at one depth. */
+typedef struct {
+    double top[PPS_STREAMS_MAX / 2], bottom[PPS_STREAMS_MAX / 2];
+} mode_decays;
+
+static void decays_at(const pps_order *order, double tau, double rest,
+                      mode_decays *decays) {
+    size_t n = (size_t)order->n;
+    for (size_t j = 0; j < n; j++) {
+        decays->top[j] = -order->k[j] * tau;
+        decays->bottom[j] = isinf(rest) ? -HUGE_VAL : -order->k[j] * rest;
+    }
+    pps_exp_array(n, decays->top, decays->top);
+    pps_exp_array(n, decays->bottom, decays->bottom);
+}
+
+/* The exponentials, homogeneous of modes k w >= 1 and particular of all. */
+PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
+                                        size_t first, size_t n,
+                                        const mode_decays *decays, const double *eqt,
+                                        mode_sums *out) {
+    const pps_solution *s = &order->solution;
+    for (size_t at = 0; at < n; at += FOUR) {
+        four_sums sum = sums_at(out, at);
+        four beam = four_at(eqt + at);
+        for (size_t j = 0; j < (size_t)order->n; j++) {
+            size_t i = j * padded + first + at;
+            mode_weights of = weights_of(order, j);
+            four falls = four_at(s->c1 + i) * decays->top[j];
+            four grows = four_at(s->c2 + i) * decays->bottom[j];
+            four psi = (falls + grows) + four_at(s->p + i) * beam;
+            four phi = order->k[j] * (falls - grows) + four_at(s->r + i) * beam;
+            add_mode(&of, psi, phi, &sum);
+        }
+        sums_to(out, at, &sum);
+    }
+}
+
+/* The special modes, one by one. */
+static void sum_special(const beam_block *block, double tau, mode_sums *sum) {
+    const pps_solution *s = &block->dom->order[0].solution;
+    for (size_t i = 0; i < s->n_special; i++) {
+        const pps_special *special = &s->special[i];
+        if (special->beam < block->first || special->beam >= block->first + block->n) {
+            continue;
+        }
+        pps_mode mode = special->mode;
+        if (mode.kind == PPS_MODE_RESONANT) { /* the rest of it is summed already */
+            mode.c1 = mode.c2 = mode.r = 0;
+        }
+        mode_weights of = weights_of(&block->dom->order[0], (size_t)special->j);
+        size_t l = special->beam - block->first;
+        double psi, phi;
+        pps_mode_state(&mode, tau, &psi, &phi);
+        sum->even[l] += of.even * psi;
+        sum->odd[l] += of.odd * phi;
+        sum->mean[l] += of.mean * psi;
+        sum->size[l] += fabs(of.even * psi) + fabs(of.odd * phi);
+    }
+}
+
+/* ---- next to an edge ---- */
 
 /* A hemispheric flux near the edge where it starts from 0, as the sum over nodes of
  * radiances integrated along their rays: no cancellation, but n times the work. */
-static double flux_by_nodes(const pps_dom *dom, double tau, double sign) {
+static double flux_by_nodes(const pps_dom *dom, size_t b, double tau, double sign) {
+    enum { MOST = PPS_STREAMS_MAX / 2 };
     const pps_discrete *d = &dom->discrete;
-    double sum = 0;
-    for (int i = 0; i < d->n; i++) {
-        double radiance = pps_dom_mean_radiance(dom, tau, sign * d->mu[i]);
-        sum += d->weight[i] * d->mu[i] * radiance;
+    const pps_order *order = &dom->order[0];
+    double w = pps_dom_scaled_thickness(dom), sum = 0;
+    double mu0 = dom->beams.mu0[b];
+    pps_mode mode[MOST];
+    pps_mode_depth at[MOST];
+    for (int j = 0; j < d->n; j++) {
+        mode[j] = pps_order_mode(order, j, w, &dom->beams, b);
+        at[j] = pps_mode_at(&mode[j], tau);
+    }
+    for (int first = 0; first < d->n; first += PPS_LANES) {
+        double mu[PPS_LANES], legendre[PPS_STREAMS_MAX * PPS_LANES];
+        double ge[MOST * PPS_LANES], go[MOST * PPS_LANES];
+        for (int l = 0; l < PPS_LANES; l++) {
+            mu[l] = d->mu[first + l < d->n ? first + l : first];
+        }
+        pps_order_project(order, d, PPS_LANES, mu, ge, go, legendre);
+        for (int l = 0; l < PPS_LANES && first + l < d->n; l++) {
+            pps_ray ray;
+            pps_ray_init(&ray, w, dom->beams.q[b], tau, sign * mu[l]);
+            double radiance =
+                dom->beams.sky ? (ray.down ? ray.ect : 0)
+                               : pps_discrete_single(d, sign * mu[l], mu0) * ray.beam;
+            for (int j = 0; j < d->n; j++) {
+                double psi, phi;
+                pps_mode_ray(&mode[j], &ray, &at[j], &psi, &phi);
+                radiance +=
+                    ge[j * PPS_LANES + l] * psi + sign * go[j * PPS_LANES + l] * phi;
+            }
+            sum += d->weight[first + l] * mu[l] * radiance;
+        }
     }
     return 2 * PI * sum;
 }
@@ -46,20 +212,20 @@ static double flux_by_nodes(const pps_dom *dom, double tau, double sign) {
 /* Below this share of its parts a flux is recomputed by flux_by_nodes. */
 static const double CANCELLED = 1e-3;
 
-static double flux_down(const pps_dom *dom, double tau, const mode_sums *sum) {
-    double flux = sum->even + sum->odd;
+static double flux_down(const pps_dom *dom, size_t b, double tau, double flux,
+                        double size) {
     if (tau <= 0) {
-        return dom->sky ? PI : 0; /* what falls in */
+        return dom->beams.sky ? PI : 0; /* what falls in */
     }
-    return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, 1);
+    return fabs(flux) > CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, 1);
 }
 
-static double flux_up(const pps_dom *dom, double tau, const mode_sums *sum) {
-    double flux = sum->even - sum->odd;
-    if (tau >= dom->slab.thickness * dom->stretch) {
+static double flux_up(const pps_dom *dom, size_t b, double tau, double flux,
+                      double size) {
+    if (tau >= pps_dom_scaled_thickness(dom)) {
         return 0; /* nothing comes up from below */
     }
-    return fabs(flux) > CANCELLED * sum->size ? flux : flux_by_nodes(dom, tau, -1);
+    return fabs(flux) > CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, -1);
 }
 
 /* Thin slabs. Single scattering dominates there, and directions mu ~ thickness, which no
@@ -70,45 +236,46 @@ static double flux_up(const pps_dom *dom, double tau, const mode_sums *sum) {
 static const double THIN = 0.1;
 
 /* What the discrete problem has of single scattering in one hemisphere. */
-static pps_hemisphere discrete_single(const pps_dom *dom, double scaled, int down) {
+static pps_hemisphere discrete_single(const pps_dom *dom, double mu0, double scaled,
+                                      int down) {
     const pps_discrete *d = &dom->discrete;
     pps_hemisphere sum = {0};
     for (int i = 0; i < d->n; i++) {
         pps_ray ray;
         double mu = down ? d->mu[i] : -d->mu[i];
-        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / dom->mu0, scaled,
-                     mu);
-        double part = d->weight[i] * ray.beam * pps_discrete_single(d, mu, dom->mu0);
+        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / mu0, scaled, mu);
+        double part = d->weight[i] * ray.beam * pps_discrete_single(d, mu, mu0);
         sum.flux += 2 * PI * d->mu[i] * part;
         sum.mean += part / 2;
     }
     return sum;
 }
 
-static pps_hemisphere exact_single(const pps_dom *dom, double tau, int down) {
+static pps_hemisphere exact_single(const pps_dom *dom, double mu0, double tau,
+                                   int down) {
     const pps_slab *slab = &dom->slab;
-    pps_hemisphere h =
-        pps_single_hemisphere(slab->g, dom->mu0, slab->thickness, tau, down);
+    pps_hemisphere h = pps_single_hemisphere(slab->g, mu0, slab->thickness, tau, down);
     return (pps_hemisphere){slab->albedo * h.flux, slab->albedo * h.mean};
 }
 
 /* What is scattered once and meets the slab again, exact over discrete. */
-static double multiple_scale(const pps_dom *dom) {
-    double w = dom->slab.thickness, scaled = w * dom->stretch, mu0 = dom->mu0;
+static double multiple_scale(const pps_dom *dom, double mu0) {
+    double w = dom->slab.thickness, scaled = w * dom->stretch;
     double exact = -dom->slab.albedo * mu0 * expm1(-w / mu0) -
-                   exact_single(dom, 0, 0).flux - exact_single(dom, w, 1).flux;
+                   exact_single(dom, mu0, 0, 0).flux -
+                   exact_single(dom, mu0, w, 1).flux;
     double discrete = -dom->discrete.albedo * mu0 * expm1(-scaled / mu0) -
-                      discrete_single(dom, 0, 0).flux -
-                      discrete_single(dom, scaled, 1).flux;
+                      discrete_single(dom, mu0, 0, 0).flux -
+                      discrete_single(dom, mu0, scaled, 1).flux;
     return exact > 0 && discrete > 0 ? exact / discrete : 1;
 }
 
-static void correct_single(const pps_dom *dom, double tau, double scale,
+static void correct_single(const pps_dom *dom, double mu0, double tau, double scale,
                            pps_flux *flux) {
     double mean = 0;
     for (int down = 0; down < 2; down++) {
-        pps_hemisphere exact = exact_single(dom, tau, down);
-        pps_hemisphere discrete = discrete_single(dom, tau * dom->stretch, down);
+        pps_hemisphere exact = exact_single(dom, mu0, tau, down);
+        pps_hemisphere discrete = discrete_single(dom, mu0, tau * dom->stretch, down);
         double *hemisphere = down ? &flux->down : &flux->up;
         *hemisphere = exact.flux + scale * (*hemisphere - discrete.flux);
         flux->mean_diffuse -= discrete.mean;
@@ -117,37 +284,94 @@ static void correct_single(const pps_dom *dom, double tau, double scale,
     flux->mean_diffuse = mean + scale * flux->mean_diffuse;
 }
 
-static pps_flux flux_at(const pps_dom *dom, double tau, double thin_scale) {
-    double mu0 = dom->mu0, scaled = tau * dom->stretch;
-    double beam = dom->sky ? 0 : exp(-tau / mu0);
-    mode_sums sum = sum_modes(&dom->order[0], scaled);
+/* ---- all together ---- */
+
+/* The beam at a depth: e^(-q tau), the same of the scaled depth, and what delta-M left in
+ * it, which is diffuse light of the true problem: the difference of the two. */
+typedef struct {
+    double direct[PPS_LANES], scaled[PPS_LANES], peak[PPS_LANES];
+} beam_here;
+
+PPS_CLONES static void beam_at(size_t n, const double *rates, double tau, double scaled,
+                               beam_here *beam) {
+    for (size_t at = 0; at < n; at += FOUR) {
+        four q = four_at(rates + at), z = q * (tau - scaled);
+        four here = four_exp(-q * scaled);
+        four_to(beam->direct + at, four_exp(-q * tau));
+        four_to(beam->scaled + at, here);
+        four_to(beam->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
+    }
+}
+
+static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
+                             const mode_sums *sum, const beam_here *beam,
+                             double thin_scale) {
+    const pps_dom *dom = block->dom;
+    size_t b = block->first + l;
+    double mu0 = dom->beams.mu0[b], scaled = tau * dom->stretch;
+    double direct = dom->beams.sky ? 0 : beam->direct[l];
     pps_flux flux = {
-        .down = flux_down(dom, scaled, &sum),
-        .up = flux_up(dom, scaled, &sum),
-        .direct = mu0 * beam,
-        .mean_diffuse = sum.mean,
+        .down = flux_down(dom, b, scaled, sum->even[l] + sum->odd[l], sum->size[l]),
+        .up = flux_up(dom, b, scaled, sum->even[l] - sum->odd[l], sum->size[l]),
+        .direct = mu0 * direct,
+        .mean_diffuse = sum->mean[l],
     };
     if (thin_scale > 0) {
-        correct_single(dom, tau, thin_scale, &flux);
-    } else if (!dom->sky) {
-        /* What delta-M left in the beam is diffuse light of the true problem. */
-        double peak = exp(-scaled / mu0) * -expm1(-(tau - scaled) / mu0);
-        flux.down += mu0 * peak;
-        flux.mean_diffuse += peak / (4 * PI);
+        correct_single(dom, mu0, tau, thin_scale, &flux);
+    } else if (!dom->beams.sky) {
+        flux.down += mu0 * beam->peak[l];
+        flux.mean_diffuse += beam->peak[l] / (4 * PI);
     }
-    flux.mean = flux.mean_diffuse + beam / (4 * PI);
+    flux.mean = flux.mean_diffuse + direct / (4 * PI);
     return flux;
+}
+
+/* Up to DEPTHS depths; flux[l * stride + k]. */
+static void block_fluxes(const beam_block *block, size_t n_tau, const double *tau,
+                         const double *thin_scale, size_t stride, pps_flux *flux) {
+    const pps_dom *dom = block->dom;
+    double w = pps_dom_scaled_thickness(dom), scaled[DEPTHS];
+    mode_sums sum[DEPTHS];
+    mode_decays decays;
+    memset(sum, 0, n_tau * sizeof *sum);
+    for (size_t k = 0; k < n_tau; k++) {
+        scaled[k] = tau[k] * dom->stretch;
+    }
+    if (dom->order[0].n_series > 0) {
+        sum_series(block, n_tau, scaled, sum);
+    }
+    for (size_t k = 0; k < n_tau; k++) {
+        beam_here beam;
+        beam_at(block->n, dom->beams.q + block->first, tau[k], scaled[k], &beam);
+        decays_at(&dom->order[0], scaled[k], w - scaled[k], &decays);
+        sum_exponentials(&dom->order[0], dom->beams.padded, block->first, block->n,
+                         &decays, beam.scaled, &sum[k]);
+        sum_special(block, scaled[k], &sum[k]);
+        for (size_t l = 0; l < block->n; l++) {
+            flux[l * stride + k] =
+                flux_of_beam(block, l, tau[k], &sum[k], &beam, thin_scale[l]);
+        }
+    }
 }
 
 pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
                         pps_flux *flux) {
-    if (!(dom->mu0 > 0) || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
+    const pps_beams *beams = &dom->beams;
+    if (beams->n == 0 || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
-    bool thin = dom->corrected && !dom->sky && dom->slab.thickness < THIN;
-    double scale = thin ? multiple_scale(dom) : 0;
-    for (size_t i = 0; i < n; i++) {
-        flux[i] = flux_at(dom, tau[i], scale);
+    bool thin = dom->corrected && !beams->sky && dom->slab.thickness < THIN;
+    for (size_t b = 0; b < beams->n; b += PPS_LANES) {
+        size_t left = beams->n - b;
+        beam_block block = {dom, b, left < PPS_LANES ? left : PPS_LANES};
+        double scale[PPS_LANES] = {0};
+        for (size_t l = 0; l < block.n && thin; l++) {
+            scale[l] = multiple_scale(dom, beams->mu0[b + l]);
+        }
+        for (size_t k = 0; k < n; k += DEPTHS) {
+            block_fluxes(&block, n - k < DEPTHS ? n - k : DEPTHS, tau + k, scale, n,
+                         flux + b * n + k);
+        }
     }
     return PPS_OK;
 }

@@ -9,6 +9,9 @@
 #include <cblas.h>
 #include <lapacke.h>
 
+#include "core/lanes.h"
+#include "solver/eigen.h"
+
 size_t pps_lapack_work(int n) {
     size_t m = (size_t)n;
     /* dsyevd: 1 + 6n + 2n^2 and 3 + 5n integers; dgesvd: 5n and more to run blocked. */
@@ -21,7 +24,42 @@ static void clear_upper(int n, double *a) {
     }
 }
 
+/* Calls of LAPACK and BLAS cost as much as the work itself at a few unknowns. */
+enum { SMALL = 16 };
+
+PPS_CLONES static bool small_cholesky(int n, double *a) {
+    double l[SMALL * SMALL]; /* columns padded, so that blocks stay inside */
+    for (int j = 0; j < n; j++) {
+        memset(l + j * SMALL, 0, SMALL * sizeof *l);
+        memcpy(l + j * SMALL + j, a + j + j * n, (size_t)(n - j) * sizeof *l);
+    }
+    for (int j = 0; j < n; j++) {
+        double *column = l + j * SMALL;
+        for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
+            four sum = four_at(column + i);
+            for (int k = 0; k < j; k++) {
+                sum -= l[j + k * SMALL] * four_at(l + i + k * SMALL);
+            }
+            four_to(column + i, sum);
+        }
+        if (!(column[j] > 0)) {
+            return false;
+        }
+        double root = sqrt(column[j]), over = 1 / root;
+        for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
+            four_to(column + i, four_at(column + i) * over);
+        }
+        memset(a + j * n, 0, (size_t)j * sizeof *a);
+        memcpy(a + j + j * n, column + j, (size_t)(n - j) * sizeof *a);
+        a[j + j * n] = root;
+    }
+    return true;
+}
+
 bool pps_cholesky(int n, double *a) {
+    if (n <= SMALL) {
+        return small_cholesky(n, a);
+    }
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a, n)) {
         return false;
     }
@@ -29,23 +67,50 @@ bool pps_cholesky(int n, double *a) {
     return true;
 }
 
-void pps_cholesky_solve(int n, const double *factor, int n_rhs, double *b) {
-    pps_lower_solve(n, factor, false, n_rhs, b);
-    pps_lower_solve(n, factor, true, n_rhs, b);
+/* One column: b <- L^-1 b, L^-T b. */
+static void solve_column(int n, const double *restrict lower, double *restrict b) {
+    for (int j = 0; j < n; j++) {
+        const double *column = lower + j * n;
+        double bj = b[j] / column[j];
+        b[j] = bj;
+        for (int i = j + 1; i < n; i++) {
+            b[i] -= bj * column[i];
+        }
+    }
+}
+
+static void solve_column_transposed(int n, const double *restrict lower,
+                                    double *restrict b) {
+    for (int j = n - 1; j >= 0; j--) {
+        const double *column = lower + j * n;
+        double sum = b[j];
+        for (int i = j + 1; i < n; i++) {
+            sum -= column[i] * b[i];
+        }
+        b[j] = sum / column[j];
+    }
 }
 
 void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs,
                      double *b) {
+    if (n <= SMALL || n_rhs == 1) {
+        for (int r = 0; r < n_rhs; r++) {
+            if (transposed) {
+                solve_column_transposed(n, lower, b + r * n);
+            } else {
+                solve_column(n, lower, b + r * n);
+            }
+        }
+        return;
+    }
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower,
                 transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1,
                 lower, n, b, n);
 }
 
-void pps_lower_times(int n, const double *lower, bool transposed, int n_rhs,
-                     double *b) {
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower,
-                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1,
-                lower, n, b, n);
+void pps_lower_times(int n, const double *lower, int n_rhs, double *b) {
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n,
+                n_rhs, 1, lower, n, b, n);
 }
 
 void pps_qr_r(int n, double *a, double *work) {
@@ -64,9 +129,22 @@ void pps_multiply(bool transposed, int n, int cols, int r, const double *a, int 
                 cols, r, 1, a, lda, b, ldb, 0, c, ldc);
 }
 
+static void square_roots(int n, double *k) {
+    for (int j = 0; j < n; j++) {
+        k[j] = sqrt(fmax(k[j], 0));
+    }
+}
+
 /* B^T B = Y K^2 Y^T. */
 static pps_status squared_problem(int n, double *b, double *k, double *y,
                                   double *work) {
+    if (n <= PPS_EIGEN_SMALL) {
+        pps_multiply(true, n, n, n, b, n, b, n, work, n);
+        if (pps_eigen_small(n, work, k, y)) {
+            square_roots(n, k);
+            return PPS_OK;
+        }
+    }
     cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, n, 1, b, n, 0, y, n);
     int *iwork = (int *)(void *)b; /* b has served; 3 + 5n integers need n >= 3 */
     int liwork = (int)((size_t)n * (size_t)n * sizeof *b / sizeof *iwork);
@@ -80,9 +158,7 @@ static pps_status squared_problem(int n, double *b, double *k, double *y,
                                    (int)pps_lapack_work(n), iwork, liwork)) {
         return PPS_ERR_CONVERGENCE;
     }
-    for (int j = 0; j < n; j++) {
-        k[j] = sqrt(fmax(k[j], 0));
-    }
+    square_roots(n, k);
     return PPS_OK;
 }
 

@@ -18,14 +18,11 @@ size_t pps_lapack_work(int n);
  * positive definite. */
 bool pps_cholesky(int n, double *a);
 
-/* B <- A^-1 B for A factored by pps_cholesky, n_rhs columns. */
-void pps_cholesky_solve(int n, const double *factor, int n_rhs, double *b);
-
 /* B <- L^-1 B or L^-T B for lower triangular L. */
 void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs, double *b);
 
-/* B <- L B or L^T B for lower triangular L. */
-void pps_lower_times(int n, const double *lower, bool transposed, int n_rhs, double *b);
+/* B <- L B for lower triangular L. */
+void pps_lower_times(int n, const double *lower, int n_rhs, double *b);
 
 /* A <- R of A = Q R: upper triangle, the lower one set to 0. */
 void pps_qr_r(int n, double *a, double *work);

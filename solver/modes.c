@@ -15,7 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/lanes.h"
 #include "core/legendre.h"
+#include "core/vector.h"
 #include "solver/lapack.h"
 #include "solver/order.h"
 
@@ -47,51 +49,83 @@ static pps_status scratch_alloc(eigen_scratch *s, int n, int n_columns) {
     return PPS_OK;
 }
 
-void pps_discrete_legendre(const pps_discrete *discrete, int m, double mu, double *p) {
-    pps_legendre(m, discrete->n_moments, mu, p);
+void pps_discrete_legendre(const pps_discrete *discrete, int m, size_t n,
+                           const double *mu, double *p) {
+    pps_legendre_array(m, discrete->n_moments, n, mu, n, p);
     for (int l = 2; m == 0 && l < discrete->n_moments; l += 2) {
-        p[l] -= discrete->bias[l];
+        for (size_t i = 0; i < n; i++) {
+            p[(size_t)l * n + i] -= discrete->bias[l];
+        }
     }
 }
 
 double pps_discrete_single(const pps_discrete *discrete, double mu, double mu0) {
     double at[PPS_STREAMS_MAX], at0[PPS_STREAMS_MAX], sum = 0;
-    pps_discrete_legendre(discrete, 0, mu, at);
-    pps_discrete_legendre(discrete, 0, mu0, at0);
+    pps_discrete_legendre(discrete, 0, 1, &mu, at);
+    pps_discrete_legendre(discrete, 0, 1, &mu0, at0);
     for (int l = 0; l < discrete->n_moments; l++) {
         sum += discrete->strength[l] * at[l] * at0[l];
     }
     return discrete->albedo / (4 * 3.14159265358979323846) * sum;
 }
 
-/* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l; row is n_columns of scratch. */
-static void node_functions(const pps_discrete *d, int m, double *p, double *row) {
-    for (int i = 0; i < d->n; i++) {
-        pps_discrete_legendre(d, m, d->mu[i], row);
-        for (int c = 0; c < d->n_moments - m; c++) {
-            p[i + c * d->n] = sqrt(d->weight[i]) * row[c];
+/* p_l(mu_i) = sqrt(w_i) P_l(mu_i), one column an l. */
+static void node_functions(const pps_discrete *d, int m, double *p) {
+    pps_discrete_legendre(d, m, (size_t)d->n, d->mu, p);
+    for (int c = 0; c < d->n_moments - m; c++) {
+        for (int i = 0; i < d->n; i++) {
+            p[i + c * d->n] *= d->root_weight[i];
         }
     }
 }
 
-/* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
- * triangle, from row and column `skip` on. */
-static void one_minus_scattering(const pps_discrete *d, int m, int first, int skip,
-                                 const double *p, double *a) {
-    int n = d->n;
-    for (int j = skip; j < n; j++) {
-        for (int i = j; i < n; i++) {
-            a[i + j * n] = i == j;
+/* y -= factor x */
+static inline void subtract(int n, double factor, const double *restrict x,
+                            double *restrict y) {
+    for (int i = 0; i < n; i++) {
+        y[i] -= factor * x[i];
+    }
+}
+
+/* Rows i to i + rows - 1 of column j of 1 - sum of factor_r p_r p_r^T; p_r is column
+ * 2 r of p. */
+PPS_LANE void scattering_rows(size_t n, size_t n_terms, const double *factor,
+                              const double *p, size_t i, size_t j, size_t rows,
+                              double *a) {
+    double sum[FOUR] = {0};
+    if (rows == FOUR) {
+        four total = {0};
+        for (size_t r = 0; r < n_terms; r++) {
+            total += factor[r] * four_at(p + 2 * r * n + i);
+        }
+        four_to(sum, total);
+    } else {
+        for (size_t r = 0; r < n_terms; r++) {
+            for (size_t l = 0; l < rows; l++) {
+                sum[l] += factor[r] * p[2 * r * n + i + l];
+            }
         }
     }
-    for (int l = first; l < d->n_moments; l += 2) {
-        const double *pl = p + (size_t)(l - m) * (size_t)n;
-        double factor = d->albedo * d->strength[l];
-        for (int j = skip; j < n; j++) {
-            double scaled = factor * pl[j];
-            for (int i = j; i < n; i++) {
-                a[i + j * n] -= scaled * pl[i];
-            }
+    for (size_t l = 0; l < rows; l++) {
+        a[i + l + j * n] = (i + l == j) - sum[l];
+    }
+}
+
+/* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
+ * triangle (and a little more), from row and column `skip` on. */
+PPS_CLONES static void one_minus_scattering(const pps_discrete *d, int m, int first,
+                                            int skip, const double *p, double *a) {
+    size_t n = (size_t)d->n;
+    const double *pl = p + (size_t)(first - m) * n;
+    double factor[PPS_STREAMS_MAX / 2];
+    for (size_t j = (size_t)skip; j < n; j++) {
+        size_t n_terms = 0;
+        for (int l = first; l < d->n_moments; l += 2, n_terms++) {
+            factor[n_terms] = d->albedo * d->strength[l] * pl[2 * n_terms * n + j];
+        }
+        for (size_t i = j / FOUR * FOUR; i < n; i += FOUR) {
+            size_t rows = n - i < FOUR ? n - i : FOUR;
+            scattering_rows(n, n_terms, factor, pl, i, j, rows, a);
         }
     }
 }
@@ -115,7 +149,7 @@ static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
     int n = d->n;
     double *h = s->vector + n, norm = 0;
     for (int i = 0; i < n; i++) {
-        h[i] = sqrt(d->weight[i]) + (i == 0);
+        h[i] = d->root_weight[i] + (i == 0);
         norm += h[i] * h[i];
     }
     for (int i = 0; i < n; i++) {
@@ -140,10 +174,10 @@ static bool factor_even_isotropic(const pps_discrete *d, eigen_scratch *s) {
     return true;
 }
 
-/* B = R diag(1/mu) L1. For m = 0, R = diag(sqrt(1 - albedo), C^T) H made triangular by
- * an orthogonal factor from the left, which leaves K and Y alone; so that B is graded
- * from large to small like the nodes. */
-static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
+/* B = R diag(1/mu) L1. For m = 0, R = diag(sqrt(1 - albedo), C^T) H, made triangular by
+ * an orthogonal factor from the left, which leaves K and Y alone, where the nodes are
+ * graded: so that B is graded from large to small like them. */
+PPS_CLONES static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
     int n = d->n;
     double *r = s->b;
     memset(r, 0, (size_t)n * (size_t)n * sizeof *r);
@@ -155,20 +189,22 @@ static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
     if (m == 0) {
         const double *h = s->vector + n;
         r[0] = sqrt(d->co_albedo);
-        for (int i = 0; i < n; i++) { /* rows of R <- rows times H */
-            double dot = 0;
-            for (int j = 0; j < n; j++) {
-                dot += r[i + j * n] * h[j];
-            }
-            for (int j = 0; j < n; j++) {
-                r[i + j * n] -= 2 * dot * h[j];
-            }
+        double *rh = s->vector + 2 * n;
+        memset(rh, 0, (size_t)n * sizeof *rh);
+        for (int j = 0; j < n; j++) { /* R <- R H */
+            subtract(n, -h[j], r + j * n, rh);
         }
-        pps_qr_r(n, r, s->work);
+        for (int j = 0; j < n; j++) {
+            subtract(n, 2 * h[j], rh, r + j * n);
+        }
+        if (!d->squared) {
+            pps_qr_r(n, r, s->work);
+        }
     }
     for (int j = 0; j < n; j++) {
-        for (int i = 0; i <= j; i++) {
-            r[i + j * n] /= d->mu[j];
+        double over = 1 / d->mu[j];
+        for (int i = 0; i < n; i++) {
+            r[i + j * n] *= over;
         }
     }
     pps_multiply(false, n, n, n, r, n, s->lower, n, s->y, n);
@@ -227,31 +263,37 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     int n = d->n, m = order->m;
     double *ly = s->b, *z = s->y; /* L1 Y; L1^-T Y, which takes the place of Y */
     memcpy(ly, s->y, (size_t)n * (size_t)n * sizeof *ly);
-    pps_lower_times(n, s->lower, false, n, ly);
+    pps_lower_times(n, s->lower, n, ly);
     pps_lower_solve(n, s->lower, true, n, z);
     for (int j = 0; j < n; j++) {
         double sum = 0;
         for (int i = 0; i < n; i++) {
-            sum += sqrt(d->weight[i]) * ly[i + j * n]; /* sqrt(w mu) M = sqrt(w) */
+            sum += d->root_weight[i] * ly[i + j * n]; /* sqrt(w mu) M = sqrt(w) */
         }
         order->flux_s[j] = sum;
     }
     /* V = (p_l / mu)^T L1 Y for l + m even; W = p_l^T L1^-T Y for odd. */
     double *row = s->work;
-    node_functions(d, m, s->p, row);
+    node_functions(d, m, s->p);
     int stride = 2 * n;
     pps_multiply(true, order->n_odd, n, n, s->p + n, stride, z, n, order->w,
                  order->n_odd > 0 ? order->n_odd : 1);
+    for (int i = 0; i < n; i++) {
+        row[i] = 1 / d->mu[i];
+    }
     for (int r = 0; r < order->n_even; r++) {
         for (int i = 0; i < n; i++) {
-            s->p[i + r * stride] /= d->mu[i];
+            s->p[i + r * stride] *= row[i];
         }
     }
     pps_multiply(true, order->n_even, n, n, s->p, stride, ly, n, order->v,
                  order->n_even);
+    for (int i = 0; i < n; i++) {
+        row[i] = 1 / sqrt(d->mu[i]);
+    }
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            ly[i + j * n] /= sqrt(d->mu[i]); /* X */
+            ly[i + j * n] *= row[i]; /* X */
         }
     }
     pps_multiply(true, n, n, n, ly, n, ly, n, order->gram, n);
@@ -262,15 +304,17 @@ static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
     *order =
         (pps_order){.m = m, .n = d->n, .n_even = (rest + 1) / 2, .n_odd = rest / 2};
     size_t n = (size_t)d->n, even = (size_t)order->n_even, odd = (size_t)order->n_odd;
-    order->memory = malloc((n * (2 + even + odd) + 3 * n * n) * sizeof *order->memory);
-    order->mode = calloc(n, sizeof *order->mode);
-    if (!order->memory || !order->mode) {
-        pps_order_free(order);
+    order->memory = malloc((n * (7 + even + odd) + 3 * n * n) * sizeof *order->memory);
+    if (!order->memory) {
         return PPS_ERR_MEMORY;
     }
-    order->k = order->memory;
-    order->flux_s = order->k + n;
-    order->gram = order->flux_s + n;
+    double **vectors[] = {&order->k,    &order->flux_s, &order->tanh,    &order->coth,
+                          &order->csch, &order->decay,  &order->sum_over};
+    double *next = order->memory;
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++, next += n) {
+        *vectors[i] = next;
+    }
+    order->gram = next;
     order->even = order->gram + n * n;
     order->odd = order->even + n * n;
     order->v = order->odd + n * n;
@@ -280,14 +324,15 @@ static pps_status order_alloc(pps_order *order, const pps_discrete *d, int m) {
 
 void pps_order_free(pps_order *order) {
     free(order->memory);
-    free(order->mode);
+    free(order->beam_memory);
+    free(order->solution.special);
     *order = (pps_order){0};
 }
 
 static pps_status solve_eigenproblem(pps_order *order, const pps_discrete *d,
                                      eigen_scratch *s) {
     int m = order->m, n = d->n;
-    node_functions(d, m, s->p, s->work);
+    node_functions(d, m, s->p);
     one_minus_scattering(d, m, m + 1, 0, s->p, s->lower);
     if (!pps_cholesky(n, s->lower)) {
         return PPS_ERR_INDEFINITE;
@@ -332,24 +377,21 @@ pps_status pps_order_create(pps_order *order, const pps_discrete *discrete, int 
     return status;
 }
 
-void pps_order_project(const pps_order *order, const pps_discrete *discrete, double mu,
-                       double *ge, double *go, double *legendre) {
-    int m = order->m, n = order->n;
-    pps_discrete_legendre(discrete, m, fabs(mu), legendre);
-    for (int c = 0; c < discrete->n_moments - m; c++) {
-        legendre[c] *= discrete->albedo / 2 * discrete->strength[m + c];
-    }
-    for (int j = 0; j < n; j++) {
-        const double *v = order->v + (size_t)j * (size_t)order->n_even;
-        const double *w = order->w + (size_t)j * (size_t)order->n_odd;
-        double even = 0, odd = 0;
-        for (int r = 0; r < order->n_even; r++) {
-            even += legendre[2 * r] * v[r];
+void pps_order_project(const pps_order *order, const pps_discrete *discrete,
+                       size_t padded, const double *mu, double *ge, double *go,
+                       double *legendre) {
+    int m = order->m;
+    size_t n = (size_t)order->n;
+    size_t n_even = (size_t)order->n_even, n_odd = (size_t)order->n_odd;
+    pps_discrete_legendre(discrete, m, padded, mu, legendre);
+    for (int l = m; l < discrete->n_moments; l++) {
+        double factor = discrete->albedo / 2 * discrete->strength[l];
+        double *row = legendre + (size_t)(l - m) * padded;
+        for (size_t i = 0; i < padded; i++) {
+            row[i] *= factor;
         }
-        for (int r = 0; r < order->n_odd; r++) {
-            odd += legendre[2 * r + 1] * w[r];
-        }
-        ge[j] = even;
-        go[j] = odd;
     }
+    pps_rows_multiply(n, n_even, order->v, n_even, padded, legendre, 2 * padded, ge);
+    pps_rows_multiply(n, n_odd, order->w, n_odd, padded, legendre + padded, 2 * padded,
+                      go);
 }

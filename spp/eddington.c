@@ -2,7 +2,7 @@
  * ray.
  *
  * gamma1 = (7 - albedo (4 + 3g))/4, gamma2 = -(1 - albedo (4 - 3g))/4,
- * gamma3 = (2 - 3 g mu0)/4 (Meador & Weaver 1980, Table 1), so that e = 2 (1 - albedo),
+ * gamma3 = (2 - 3 g mu0)/4 (MW80, Table 1), so that e = 2 (1 - albedo),
  * f = 3/2 (1 - albedo g). The radiance in the source is I0 + I1 mu with
  * I0 = (F+ + F-)/(2 pi), I1 = 3 (F+ - F-)/(4 pi); one scattering makes it I0 + g I1 mu.
  *
@@ -89,7 +89,8 @@ const pps_method pps_method_eddington = {
     .cost = "about ten exponentials a direction",
     .summary = "Eddington two-stream source marched along the ray",
     .limits = "4-6 % for |g| <= 0.5 in thick slabs; 35 % at g = 0.8; fluxes are the "
-              "two-stream's own and may be negative in thin forward-scattering slabs",
+              "two-stream's own, reflectance within 0.16 of what falls in; both may be "
+              "negative in thin forward-scattering slabs",
     .fields = true,
     .fluxes = true,
     .half_space = true,

@@ -26,12 +26,17 @@ static pps_status hemispheric_init(void *state, const pps_slab *slab,
     return PPS_OK;
 }
 
+void pps_hemispheric_solve(pps_twostream *two, const pps_slab *slab, double mu0) {
+    double albedo = slab->albedo, backward = pps_hg_backward(slab->g, mu0);
+    double e = 2 * (1 - albedo), f = e + 4 * albedo * backward;
+    pps_twostream_solve(two, slab->thickness, mu0, e, f, albedo,
+                        albedo * (1 - 2 * backward));
+}
+
 static pps_status hemispheric_solve(void *state, double thickness, double mu0) {
     hemispheric *h = state;
-    double albedo = h->slab.albedo, backward = pps_hg_backward(h->slab.g, mu0);
-    double e = 2 * (1 - albedo), f = e + 4 * albedo * backward;
-    pps_twostream_solve(&h->two, thickness, mu0, e, f, albedo,
-                        albedo * (1 - 2 * backward));
+    pps_slab slab = {h->slab.albedo, h->slab.g, thickness};
+    pps_hemispheric_solve(&h->two, &slab, mu0);
     return PPS_OK;
 }
 
@@ -77,7 +82,8 @@ const pps_method pps_method_hemispheric = {
     .name = "hemispheric",
     .cost = "three exponentials a depth",
     .summary = "SPP's hemispheres with mean cosine 1/2 for diffuse light",
-    .limits = "same radiance in every direction of a hemisphere; fluence to 3-11 %",
+    .limits = "same radiance in every direction of a hemisphere; fluence to 3-11 %; "
+              "reflectance within 0.1 of what falls in",
     .fields = true,
     .fluxes = true,
     .half_space = true,

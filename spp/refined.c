@@ -97,7 +97,9 @@ const pps_method pps_method_spp_refined = {
     .name = "spp-refined",
     .cost = "about ten exponentials a direction; fluxes by quadrature",
     .summary = "SPP marched along the ray in closed form (SPP A.1)",
-    .limits = "32-58 % off at albedo 0.9 and up in thick slabs (rms of each field)",
+    .limits =
+        "32-58 % off at albedo 0.9 and up in thick slabs (rms of each field); does not "
+        "conserve energy: reflectance many times too large for mu0 < 0.3",
     .fields = true,
     .fluxes = true,
     .half_space = true,

@@ -39,7 +39,9 @@ const pps_method pps_method_single = {
     .name = "single",
     .cost = "two exponentials a direction; fluxes by quadrature",
     .summary = "single scattering of the beam, exact phase function",
-    .limits = "right to first order in albedo; dark wherever light scatters twice",
+    .limits =
+        "right to first order in albedo; dark wherever light scatters twice, so that "
+        "all of the reflectance may be missing",
     .fields = true,
     .fluxes = true,
     .half_space = true,

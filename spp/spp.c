@@ -199,7 +199,8 @@ const pps_method pps_method_spp = {
     .summary =
         "simplified plane-parallel model (SPP Eq. 19, misprints mended, kappa = 1)",
     .limits =
-        "same radiance in every direction of a hemisphere; fluence 0.6 of the truth",
+        "same radiance in every direction of a hemisphere; fluence 0.6 of the truth; "
+        "reflectance within 0.35 of what falls in",
     .fields = true,
     .fluxes = true,
     .half_space = true,

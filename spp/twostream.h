@@ -26,6 +26,9 @@ typedef struct pps_twostream {
 void pps_twostream_solve(pps_twostream *two, double thickness, double mu0, double e,
                          double f, double a, double b);
 
+/* The equations of the method "hemispheric" (hemispheric.c). */
+void pps_hemispheric_solve(pps_twostream *two, const pps_slab *slab, double mu0);
+
 /* Lit by an isotropic radiance of 1 from above instead: F+(0) = pi. */
 void pps_twostream_solve_sky(pps_twostream *two, double thickness, double e, double f);
 

@@ -27,8 +27,8 @@ typedef struct {
 #define SQRT3 1.7320508075688772935
 
 /* MW80 and Toon89, Table 1 of each. Toon89 leaves gamma3 of the hemispheric mean open:
- * here (2 - g mu0)/4, as is usual. PIFM ("practical improved flux method"): Zdunkowski,
- * Welch & Korb (1980), Beitr. Phys. Atmos. 53, 147. */
+ * here (2 - g mu0)/4, as is usual. PIFM, the "practical improved flux
+ * method": ZWK80. */
 static const closure eddington = {2, 1.5, 0, 1.5, 1.5};
 static const closure quadrature = {SQRT3, SQRT3, 0, SQRT3, SQRT3};
 static const closure hemispheric_mean = {2, 2, 0, 2, 0.5};
@@ -96,8 +96,9 @@ static pps_status scheme_flux(void *state, size_t n, const double *tau,
 }
 
 #define LIMITS                                                                         \
-    "fluxes only; may be negative, or more than falls in, in thin slabs and for "      \
-    "grazing beams"
+    "fluxes only; reflectance within 0.18 of what falls in (hemispheric mean 0.3, "    \
+    "with delta and g < 0 0.45); may be negative, or more than falls in, in thin "     \
+    "slabs and for grazing beams"
 
 /* A row: the identifier of the method, its name, its closure, scaled or not. */
 #define SCHEMES(X)                                                                     \

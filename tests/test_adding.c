@@ -335,6 +335,26 @@ static void elimination_by_row_sums_keeps_a_tiny_excess(void **state) {
     assert_close(b[1], 0.5e30, 1e-15, 0);
 }
 
+/* The beam lights the uppermost 1e-4, where light goes along the horizon. */
+static void a_grazing_beam_is_followed_into_the_skin(void **state) {
+    (void)state;
+    double tau[2] = {0, 5}, mu[4] = {-0.9, -0.05, 0.05, 0.9}, phi[2] = {0, 120};
+    double rough[16], sharp[16], largest = 0;
+    pps_grid at = {2, 4, 2, tau, mu, phi};
+    pps_model *model = create(0.95, 0.8, 10, 1e-4, 5e-6, beam);
+    assert_int_equal(pps_model_radiance(model, &at, rough), PPS_OK);
+    pps_model_free(model);
+    model = create(0.95, 0.8, 10, 1e-4, 1e-9, beam);
+    assert_int_equal(pps_model_radiance(model, &at, sharp), PPS_OK);
+    pps_model_free(model);
+    for (int i = 0; i < 16; i++) {
+        largest = fmax(largest, sharp[i]);
+    }
+    for (int i = 0; i < 16; i++) {
+        assert_close(rough[i], sharp[i], 0, 5e-6 * fmax(sharp[i], 1e-3 * largest));
+    }
+}
+
 static void what_cannot_be_met_is_said(void **state) {
     (void)state;
     double tau = 0, mu = -0.5, phi = 0, radiance;
@@ -375,6 +395,7 @@ int main(void) {
         cmocka_unit_test(lights_superpose),
         cmocka_unit_test(furnace_is_even),
         cmocka_unit_test(elimination_by_row_sums_keeps_a_tiny_excess),
+        cmocka_unit_test(a_grazing_beam_is_followed_into_the_skin),
         cmocka_unit_test(what_cannot_be_met_is_said),
         cmocka_unit_test(info_says_what_was_used),
     };

@@ -1,14 +1,19 @@
 /* The method "auto" over random slabs that its table was not made on: at least 99 % meet
  * the tolerance, and what it picks costs at most twice the cheapest that would have done
- * (median). `test_auto_method N` takes N slabs; the slow test 2,000.
+ * (median). Costs are those of the candidates (methods/auto_grid.h), which a busy machine
+ * does not change; processor times are printed beside them. `test_auto_method N` takes N
+ * slabs; the slow test 2,000.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 #include <ppscat/method.h>
 
 #include "core/quadrature.h"
+#include "methods/auto_grid.h"
 #include "support/support.h"
 
 enum { N_TAU = 11, N_NODE = 8, N_MU = 2 * N_NODE, N_PHI = 12 };
@@ -75,54 +80,189 @@ static double rms_rel(const double *got, const double *want, const directions *d
     return sum / N_TAU;
 }
 
-static void tolerance_is_met_in_99_of_100_slabs(void **state) {
+/* ---- what there was to choose from ---- */
+
+/* The candidates, and what is on the front of the chart without being one. */
+static const struct {
+    const char *name;
+    int streams;
+    double cost;
+} candidate[] = {
+#define ROW(name, streams, cost) {name, streams, cost},
+    PPS_AUTO_CANDIDATES(ROW) ROW("exact", 4, 16)
+#undef ROW
+};
+enum { N_CANDIDATES = PPS_AUTO_N_CANDIDATES + 1 };
+
+/* What a case was solved by; its model, to be timed. */
+typedef struct {
+    pps_model *model;
+    double error, cost, seconds; /* of one more evaluation; 0: not measured */
+} attempt;
+
+static double processor_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double time_of(attempt *a, const sample *s, const directions *d) {
+    static double again[N_BLOCK];
+    if (a->seconds == 0) {
+        double start = processor_seconds();
+        assert_int_equal(radiance(a->model, s, d, again), PPS_OK);
+        a->seconds = processor_seconds() - start;
+    }
+    return a->seconds;
+}
+
+static void attempt_with(attempt *a, const char *name, const pps_options *opts,
+                         const sample *s, const directions *d, const double *want) {
+    static double got[N_BLOCK];
+    pps_status status =
+        pps_model_create(pps_method_find(name), &s->slab, opts, &a->model);
+    status = status ? status : radiance(a->model, s, d, got);
+    a->error = status ? HUGE_VAL : rms_rel(got, want, d);
+}
+
+static bool same_choice(const pps_info *info, int c) {
+    return info->by_table && strcmp(info->used->name, candidate[c].name) == 0 &&
+           (candidate[c].streams == 0 || candidate[c].streams == info->streams);
+}
+
+/* `exact` on its own climbs a ladder: two rungs or three, the last as large as the others
+ * together or larger. */
+static double cost_of(const pps_info *info) {
+    for (int c = 0; c < N_CANDIDATES; c++) {
+        if (same_choice(info, c)) {
+            return candidate[c].cost;
+        }
+    }
+    return 2.0 * info->streams * info->streams;
+}
+
+/* ---- one slab ---- */
+
+enum { N_TOLERANCES = 5 };
+static const double tolerances[N_TOLERANCES] = {0.3, 0.1, 0.01, 1e-4, 1e-6};
+
+typedef struct {
+    int judged, missed[N_TOLERANCES];
+    double *cost[N_TOLERANCES], *time[N_TOLERANCES]; /* ratios, a slab each */
+} tally;
+
+static pps_status exact_answer(const pps_options *opts, const sample *s,
+                               const directions *d, double *want) {
+    pps_model *model;
+    pps_status status =
+        pps_model_create(pps_method_find("exact"), &s->slab, opts, &model);
+    status = status ? status : radiance(model, s, d, want);
+    pps_model_free(model);
+    return status;
+}
+
+/* To 3e-8, or, where that is refused, with 256 streams. */
+static void refer(const sample *s, const directions *d, double *want) {
+    if (exact_answer(&(pps_options){.tolerance = 3e-8}, s, d, want)) {
+        assert_int_equal(exact_answer(&(pps_options){.streams = 256}, s, d, want),
+                         PPS_OK);
+    }
+}
+
+/* The cheapest candidate that meets the tolerance and costs less than `limit`, or NULL;
+ * `tried` are kept for other tolerances. */
+static attempt *cheapest(attempt *tried, double tolerance, double limit,
+                         const sample *s, const directions *d, const double *want) {
+    attempt *best = NULL;
+    for (int c = 0; c < N_CANDIDATES; c++) {
+        if (candidate[c].cost >= limit) {
+            continue;
+        }
+        if (!tried[c].model) {
+            pps_options opts = {.streams = candidate[c].streams};
+            attempt_with(&tried[c], candidate[c].name, &opts, s, d, want);
+            tried[c].cost = candidate[c].cost;
+        }
+        if (tried[c].error <= tolerance) {
+            best = &tried[c];
+            limit = best->cost;
+        }
+    }
+    return best;
+}
+
+static void judge_slab(const sample *s, const directions *d, tally *sum) {
+    static double want[N_BLOCK];
+    attempt tried[N_CANDIDATES] = {{0}};
+    refer(s, d, want);
+    for (int t = 0; t < N_TOLERANCES; t++) {
+        pps_options opts = {.tolerance = tolerances[t]};
+        pps_info info;
+        attempt picked = {0}, *best;
+        attempt_with(&picked, "auto", &opts, s, d, want);
+        pps_model_query(picked.model, &info);
+        picked.cost = cost_of(&info);
+        best = cheapest(tried, tolerances[t], picked.cost, s, d, want);
+        sum->cost[t][sum->judged] = best ? picked.cost / best->cost : 1;
+        sum->time[t][sum->judged] =
+            best ? time_of(&picked, s, d) / time_of(best, s, d) : 1;
+        if (!(picked.error <= tolerances[t])) {
+            sum->missed[t]++;
+            print_message("albedo %g g %g w %g mu0 %g: %s %d: %.2e for %g\n",
+                          s->slab.albedo, s->slab.g, s->slab.thickness, s->mu0,
+                          info.used->name, info.streams, picked.error, tolerances[t]);
+        }
+        pps_model_free(picked.model);
+    }
+    for (int c = 0; c < N_CANDIDATES; c++) {
+        pps_model_free(tried[c].model);
+    }
+    sum->judged++;
+}
+
+/* ---- all of them ---- */
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *x, int n) {
+    qsort(x, (size_t)n, sizeof *x, ascending);
+    return x[n / 2];
+}
+
+static void tolerance_is_met_in_99_of_100_slabs_at_little_cost(void **state) {
     (void)state;
-    static const double tolerances[] = {0.3, 0.1, 0.01, 1e-4, 1e-6};
-    static double want[N_BLOCK], got[N_BLOCK];
     directions d = make_directions();
-    uint64_t seed = 349;
-    int missed[5] = {0}, met = 0;
+    uint64_t seed = 20261122;
+    tally sum = {0};
+    for (int t = 0; t < N_TOLERANCES; t++) {
+        sum.cost[t] = calloc((size_t)n_slabs, sizeof(double));
+        sum.time[t] = calloc((size_t)n_slabs, sizeof(double));
+        assert_true(sum.cost[t] && sum.time[t]);
+    }
     for (int i = 0; i < n_slabs; i++) {
         sample s = draw(&seed);
-        pps_options sharp = {.tolerance = 3e-8};
-        pps_model *exact;
-        assert_int_equal(
-            pps_model_create(pps_method_find("exact"), &s.slab, &sharp, &exact),
-            PPS_OK);
-        pps_status status = radiance(exact, &s, &d, want);
-        pps_model_free(exact);
-        if (status) {
-            continue; /* no reference to judge by */
-        }
-        for (int t = 0; t < 5; t++) {
-            pps_options opts = {.tolerance = tolerances[t]};
-            pps_model *model;
-            assert_int_equal(
-                pps_model_create(pps_method_find("auto"), &s.slab, &opts, &model),
-                PPS_OK);
-            assert_int_equal(radiance(model, &s, &d, got), PPS_OK);
-            double error = rms_rel(got, want, &d);
-            missed[t] += error > tolerances[t];
-            met += error <= tolerances[t];
-            if (error > tolerances[t]) {
-                pps_info info;
-                pps_model_query(model, &info);
-                print_error("albedo %g g %g w %g mu0 %g: %s %d: %.2e for %g\n",
-                            s.slab.albedo, s.slab.g, s.slab.thickness, s.mu0,
-                            info.used->name, info.streams, error, tolerances[t]);
-            }
-            pps_model_free(model);
-        }
+        judge_slab(&s, &d, &sum);
     }
-    for (int t = 0; t < 5; t++) {
-        assert_true(missed[t] <= n_slabs / 100 + (n_slabs < 100));
+    for (int t = 0; t < N_TOLERANCES; t++) {
+        double cost = median(sum.cost[t], n_slabs), time = median(sum.time[t], n_slabs);
+        print_message("tolerance %g: %d of %d missed; cost of the choice over the "
+                      "cheapest that would have done: median %.2f (time %.2f), "
+                      "ninth decile %.2f\n",
+                      tolerances[t], sum.missed[t], n_slabs, cost, time,
+                      sum.cost[t][n_slabs * 9 / 10]);
+        assert_true(sum.missed[t] <= n_slabs / 100 + (n_slabs < 100));
+        assert_true(cost <= 2);
+        free(sum.cost[t]);
+        free(sum.time[t]);
     }
-    assert_true(met > 4 * n_slabs);
 }
 
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tolerance_is_met_in_99_of_100_slabs),
+        cmocka_unit_test(tolerance_is_met_in_99_of_100_slabs_at_little_cost),
     };
     n_slabs = argc > 1 ? atoi(argv[1]) : n_slabs;
     return cmocka_run_group_tests(tests, NULL, NULL);

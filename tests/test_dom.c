@@ -248,6 +248,44 @@ static void answers_are_continuous_in_thickness(void **state) {
     pps_dom_free(dom);
 }
 
+/* ---- nodes ---- */
+
+static double reflectance_of(pps_slab slab, int streams, pps_nodes nodes) {
+    pps_dom *dom = solve(
+        slab, (pps_dom_opts){.streams = streams, .nodes = nodes, .orders = 1}, 0.6);
+    double top = 0;
+    pps_flux flux;
+    assert_int_equal(pps_dom_flux(dom, 1, &top, &flux), PPS_OK);
+    pps_dom_free(dom);
+    return flux.up;
+}
+
+/* In the geometric mean over slabs the choice is as good as the better of both nodes to a
+ * factor of two, and five times better than the worse. */
+static void auto_nodes_are_those_that_suit_the_slab(void **state) {
+    (void)state;
+    static const double gs[] = {-0.5, 0, 0.5, 0.7, 0.85}, ws[] = {0.2, 1, 3, 10, 100};
+    static const int streams[] = {4, 8, 16, 32};
+    double over_best = 0, under_worst = 0;
+    int n = 0;
+    for (int i = 0; i < 5 * 5 * 4; i++) {
+        pps_slab slab = {0.95, gs[i % 5], ws[i / 5 % 5]};
+        double want = reflectance_of(slab, 192, PPS_NODES_AUTO), error[3];
+        for (int k = 0; k < 3; k++) { /* auto, Gauss, mapped */
+            double got = reflectance_of(slab, streams[i / 25], (pps_nodes)k);
+            error[k] = fmax(fabs(got / want - 1), 1e-12);
+        }
+        over_best += log(error[0] / fmin(error[1], error[2]));
+        under_worst += log(fmax(error[1], error[2]) / error[0]);
+        n++;
+    }
+    print_message(
+        "auto nodes: %.2f times the error of the better, 1/%.1f of the worse\n",
+        exp(over_best / n), exp(under_worst / n));
+    assert_true(exp(over_best / n) < 2);
+    assert_true(exp(under_worst / n) > 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(conservative_slab_returns_all_energy),
@@ -260,6 +298,7 @@ int main(void) {
         cmocka_unit_test(faint_scattering_is_single_scattering),
         cmocka_unit_test(thick_slab_is_a_half_space),
         cmocka_unit_test(answers_are_continuous_in_thickness),
+        cmocka_unit_test(auto_nodes_are_those_that_suit_the_slab),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -223,8 +223,8 @@ static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
-        l->kappa[i] = (float)(given > 0 ? given
-                                        : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+        l->kappa[i] =
+            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
     }
     free(kept);
     return PPS_OK;
@@ -335,9 +335,9 @@ static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *cle
     pps_sweeper sweeper;
     double to[1][3];
     memcpy(to, lit->scene->sun.to, sizeof to);
-    pps_status status = pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic,
-                                         l->depth, 1, (const double(*)[3])to,
-                                         &(double){1}, l->gap);
+    pps_status status =
+        pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic, l->depth, 1,
+                         (const double(*)[3])to, &(double){1}, l->gap);
     if (status) {
         return status;
     }

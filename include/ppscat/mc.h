@@ -33,7 +33,8 @@ typedef struct pps_mc_opts {
  *   opts            may be NULL
  *   standard_error  may be NULL. 0 where a number is exact; INFINITY where so few
  *                   photons carry it that their spread says nothing, as deep in an
- *                   absorbing slab: such a value may be wrong by any factor
+ *                   absorbing slab, or radiances where photons (1 - |g|)^2 < 30 leave
+ *                   the peak unseen: such a value may be wrong by any factor
  * Status: ARGUMENT, MEMORY.
  * Accuracy: that of a sum over photons in fixed blocks; the answer is the same however
  * the blocks are computed. Time grows with photons, scatterings and wanted numbers; in

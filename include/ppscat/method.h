@@ -87,18 +87,27 @@ PPS_API pps_status pps_model_create(const pps_method *method, const pps_slab *sl
 /* Set thickness and beam. UNSUPPORTED where the method does not cover them. */
 PPS_API pps_status pps_model_solve(pps_model *model, double thickness, double mu0);
 
+/* The same for n beams at once, mu0[n]; outputs then hold one block a beam, one after the
+ * other. To the last bit what beam by beam gives, and faster where the method shares work
+ * (`exact` with given streams). Where an output fails for one of the beams it fails. */
+PPS_API pps_status pps_model_solve_beams(pps_model *model, double thickness, size_t n,
+                                         const double *mu0);
+
 /* Diffuse radiance under the light of the options (for a beam of 1: per unit irradiance,
  * 1/sr); uncollided sky light is diffuse. Index as pps_dom_radiance.
  * Not const: a method may refine itself until it meets the tolerance. */
 PPS_API pps_status pps_model_radiance(pps_model *model, const pps_grid *at,
                                       double *radiance);
 
-/* Fluxes and mean intensities at n depths. */
+/* Fluxes and mean intensities at n depths, flux[b * n + k] of beam b at depth k. */
 PPS_API pps_status pps_model_flux(pps_model *model, size_t n, const double *tau,
                                   pps_flux *flux);
 
-/* What the last output used. */
+/* What the last output used; of several beams, for the first. */
 PPS_API void pps_model_query(const pps_model *model, pps_info *info);
+
+/* What it used for beam b, b < n of the last solve. */
+PPS_API void pps_model_query_beam(const pps_model *model, size_t b, pps_info *info);
 
 PPS_API void pps_model_free(pps_model *model);
 

@@ -19,6 +19,7 @@
 #ifndef PPSCAT_PPSCAT_H
 #define PPSCAT_PPSCAT_H
 
+#include <ppscat/closed.h>
 #include <ppscat/dom.h>
 #include <ppscat/expdiff.h>
 #include <ppscat/mc.h>

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "program.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -195,14 +196,94 @@ static void numbers_are_short(void **state) {
     static const struct {
         double x;
         const char *text;
-    } cases[] = {{0.1, "0.1"},      {10, "10"},        {0.5, "0.5"}, {1e-6, "1e-06"},
-                 {INFINITY, "inf"}, {(double)NAN, ""}, {0, "0"},     {-0.25, "-0.25"}};
+    } cases[] = {{0.1, "0.1"},
+                 {10, "10"},
+                 {0.5, "0.5"},
+                 {1e-6, "1e-06"},
+                 {INFINITY, "inf"},
+                 {(double)NAN, ""},
+                 {0, "0"},
+                 {-0.25, "-0.25"},
+                 {1e15, "1000000000000000"},
+                 {1e16, "1e+16"},
+                 {12345.678, "12345.678"},
+                 {0.0001, "0.0001"},
+                 {0.00001234, "1.234e-05"},
+                 {5e-324, "5e-324"},
+                 {DBL_MAX, "1.7976931348623157e+308"},
+                 {-INFINITY, "-inf"},
+                 {9007199254740992, "9007199254740992"},
+                 {1e23, "1e+23"},
+                 {100, "100"}};
     char text[CSV_NUMBER_SIZE];
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         csv_format(cases[i].x, text);
         assert_string_equal(text, cases[i].text);
+    }
+}
+
+/* The digits of a number as text, without zeros at either end; returns how many. */
+static size_t digits_of(const char *text, char digits[CSV_NUMBER_SIZE]) {
+    size_t n = 0;
+
+    for (; *text && *text != 'e'; text++) {
+        if (*text >= '0' && *text <= '9' && (n || *text != '0'))
+            digits[n++] = *text;
+    }
+    while (n && digits[n - 1] == '0')
+        n--;
+    digits[n] = '\0';
+    return n;
+}
+
+/* printf's digits, as many as it takes to read back x: correctly rounded, so nobody has
+ * nearer ones, but where rounding leads out of what reads back as x there may be fewer. */
+static void compare_with_printf(double x) {
+    char text[CSV_NUMBER_SIZE], want[64], ours[CSV_NUMBER_SIZE],
+        theirs[CSV_NUMBER_SIZE];
+    int precision = 0;
+    size_t n;
+
+    do
+        snprintf(want, sizeof want, "%.*e", precision++, x);
+    while (strtod(want, NULL) != x);
+    csv_format(x, text);
+    n = digits_of(want, theirs);
+    if (strtod(text, NULL) != x || digits_of(text, ours) > n ||
+        (strlen(ours) == n && strcmp(ours, theirs) != 0))
+        fail_msg("%a is '%s', printf has '%s'", x, text, want);
+}
+
+/* Every exponent, with the fractions at and beside the powers of two, where the interval
+ * that reads back as x is lopsided; subnormals; decimal fractions; random bits. */
+static void numbers_have_the_fewest_digits_and_the_nearest(void **state) {
+    uint64_t random = 88172645463325252u;
+
+    (void)state;
+    for (uint64_t exponent = 0; exponent < 2047; exponent++) {
+        for (uint64_t i = 0; i < 40; i++) {
+            uint64_t bits = exponent << 52;
+            double x;
+            random ^= random << 13; /* xorshift64 */
+            random ^= random >> 7;
+            random ^= random << 17;
+            if (i < 8)
+                bits += i < 4 ? i : UINT64_C(0) - (i - 3);
+            else
+                bits |= i < 12 ? random >> 12 & ~UINT64_C(0) << 5 * i : random >> 12;
+            bits &= INT64_MAX;
+            memcpy(&x, &bits, sizeof x);
+            if (isfinite(x) && x != 0)
+                compare_with_printf(x);
+        }
+    }
+    for (int i = 1; i < 20000; i++) {
+        compare_with_printf(i / 1000.0);
+        compare_with_printf(i * 1e17);
+        compare_with_printf(i * 5e-324);
+        compare_with_printf((double)(random >> 11) + i);
     }
 }
 
@@ -228,6 +309,7 @@ int main(void) {
         cmocka_unit_test(azimuths_integrate_cosines),
         cmocka_unit_test(numbers_read_back_the_same),
         cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(numbers_have_the_fewest_digits_and_the_nearest),
         cmocka_unit_test(misspelt_words_are_guessed),
     };
 
