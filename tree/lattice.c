@@ -30,7 +30,8 @@ struct pps_lattice {
     float *depth;                /* per cell: sigma times side */
     float *kappa;                /* per leaf cell: escape factor */
     pps_bands *albedo, *direct;  /* per leaf cell */
-    pps_bands *source;           /* per cell */
+    pps_bands *source, *beam;    /* per cell: scattered evenly, and of the sun alone */
+    pps_bands phase[PPS_SWEEP_DIRECTIONS_MAX]; /* of the sun's first scattering, less 1 */
     pps_bands *sum[2], *flux[2]; /* per cell, downward and upward half */
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
     size_t n_state;
@@ -133,7 +134,7 @@ static pps_status allocate(pps_lattice *l) {
     l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
     l->kappa = malloc((m + 1) * sizeof *l->kappa);
     l->albedo = bands_array(2 * m);
-    l->source = bands_array(9 * n + 3 * l->n_columns);
+    l->source = bands_array(10 * n + 3 * l->n_columns);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
     if (!l->depth || !l->leaf_cell || !l->kappa || !l->albedo || !l->source ||
         !l->sky_below) {
@@ -144,7 +145,8 @@ static pps_status allocate(pps_lattice *l) {
         l->sum[h] = l->source + (1 + h) * n;
         l->flux[h] = l->source + (3 + 3 * h) * n;
     }
-    l->fall = l->source + 9 * n;
+    l->beam = l->source + 9 * n;
+    l->fall = l->beam + n;
     l->ground_direct = l->fall + l->n_columns;
     l->ground_light = l->ground_direct + l->n_columns;
     return PPS_OK;
@@ -237,8 +239,8 @@ static pps_status measure_escape(pps_lattice *l, const pps_cells *cells, double 
     pps_sweeper sweeper = {0};
     pps_bands one = pps_bands_all(1);
     pps_sweep half[2] = {
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[1]}};
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .top = one, .side = one, .sum = l->sum[1]}};
     for (int j = 0; j < l->n_directions; j++) {
         weight[j] = 1.0 / l->n_directions;
     }
@@ -306,6 +308,40 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
 
 /* ---- the light ---- */
 
+/* (rho - tau) / (rho + tau) of the scene's leaves, by area. */
+static double reflected_excess(const pps_scene *scene, int band) {
+    double excess = 0, sum = 0;
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
+        const pps_leaf_optics *o = &p->optics;
+        pps_mesh_size size;
+        pps_mesh_measure(p->mesh, &size);
+        double area = size.leaf_area * pow(scene->instance[k].scale, 2);
+        for (int face = 0; face < 2; face++) {
+            excess += area * (o->reflectance[face][band] - o->transmittance[face][band]);
+            sum += area * (o->reflectance[face][band] + o->transmittance[face][band]);
+        }
+    }
+    return sum > 0 ? excess / sum : 0;
+}
+
+/* Leaves of random orientation that scatter by Lambert's law have the phase function
+ *     1 - 4/3 (rho - tau)/(rho + tau) cos + 5/16 P2(cos) + ..
+ * (its moments are those of the leaf's |n.s|, squared). It counts where light has one
+ * direction: the first time the sun's is scattered. */
+static void set_phase(pps_lattice *l, const pps_scene *scene) {
+    double to[PPS_ORDINATES][3], weight[PPS_ORDINATES];
+    pps_ordinates(to, weight);
+    pps_bands odd = {0};
+    for (int b = 0; b < scene->n_bands; b++) {
+        odd[b] = (float)(-4.0 / 3 * reflected_excess(scene, b));
+    }
+    for (int j = 0; j < PPS_ORDINATES; j++) {
+        double mu = vec_dot(to[j], scene->sun.to);
+        l->phase[j] = (float)mu * odd + pps_bands_all((float)(5.0 / 32 * (3 * mu * mu - 1)));
+    }
+}
+
 /* Fluence of sun and sky at the leaves, by measured visibilities. */
 static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     const pps_scene *scene = lit->scene;
@@ -320,10 +356,12 @@ static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
                 (float)(4 * PI / l->n_directions * pps_sky_part(scene, cells, j, b));
         }
     }
+    set_phase(l, scene);
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         const float *seen = &cells->visibility[c * (size_t)l->n_directions];
         l->direct[i] = (float)cells->sun_visibility[c] * e;
+        l->beam[c] = l->depth[c] * l->albedo[i] * l->direct[i];
         for (int j = 0; sky && j < l->n_directions; j++) {
             l->direct[i] += seen[j] * part[j];
         }
@@ -344,8 +382,8 @@ static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *cle
     pps_bands one = pps_bands_all(1);
     memset(l->source, 0, l->n_cells * sizeof(pps_bands));
     pps_sweep half[2] = {
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .sum = l->sum[1]}};
+        {.source = l->source, .beam = l->source, .phase = l->phase, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source, .beam = l->source, .phase = l->phase, .sum = l->sum[1]}};
     sweep_dark(l, &sweeper, half);
     pps_sweep_clear(&sweeper, &sweeper.group[0], 0, clear);
     pps_sweeper_clear(&sweeper);
@@ -409,8 +447,8 @@ static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
  * the sweeper, and l->fall. */
 static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
                        bool flux) {
-    pps_sweep half[2] = {{.source = l->source, .sum = l->sum[0]},
-                         {.source = l->source, .sum = l->sum[1]}};
+    pps_sweep half[2] = {{.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[0]},
+                         {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[1]}};
     const pps_bands *sides = l->state + l->n_leaf_cells;
     size_t n_sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
     memcpy(l->sweeper.faces, sides, n_sides * sizeof *sides);
