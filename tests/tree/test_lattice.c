@@ -137,7 +137,6 @@ static void a_column_is_the_exact_slab(void **state) {
                 net = fmax(
                     net, fabs((double)field->flux[3 * at + 2] - (flux.down - flux.up)));
             }
-            if(getenv("DBG")) printf("w %g mu0 %g albedo %g: rms %.4f net %.4f sweeps %d\n", w, mu0, albedo[k], sqrt(error/size), net, field->sweeps);
             assert_true(sqrt(error / size) < 0.01);
             assert_close(net, 0, 0, 0.01);
             pps_model_free(model);
