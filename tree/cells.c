@@ -266,9 +266,9 @@ static pps_status reserve(pps_cells_own *own) {
     c->visibility = calloc(nj, sizeof *c->visibility);
     own->point = malloc((own->n_points + 1) * sizeof *own->point);
     own->first = calloc(n + 2, sizeof *own->first);
-    bool all = c->area && c->cell_of && c->n_leaves && c->n_points && c->sun_depth && c->sun_behind &&
-               c->sun_visibility && c->sun_clear && c->depth && c->visibility && own->point &&
-               own->first;
+    bool all = c->area && c->cell_of && c->n_leaves && c->n_points && c->sun_depth &&
+               c->sun_behind && c->sun_visibility && c->sun_clear && c->depth &&
+               c->visibility && own->point && own->first;
     return all ? PPS_OK : PPS_ERR_MEMORY;
 }
 

@@ -38,7 +38,8 @@ static void fill_member(const pps_scene *scene, const pps_cells *cells, double b
                         const double axis[3], size_t i, member *m) {
     pps_scene_leaf at;
     pps_scene_leaf_at(scene, i, &at);
-    const pps_mesh *mesh = scene->prototype[scene->instance[at.instance].prototype].mesh;
+    const pps_mesh *mesh =
+        scene->prototype[scene->instance[at.instance].prototype].mesh;
     size_t c = cells->cell_of[i];
     double d = cells->sun_depth[c], w = d + cells->sun_behind[c];
     *m = (member){.category = (long)floor(d / bin) * 100000 + (long)floor(w / bin),
@@ -56,7 +57,8 @@ static member *sort_leaves(const pps_scene *scene, const pps_cells *cells, doubl
         sun = fmax(sun, scene->sun.irradiance[b]);
     }
     for (size_t i = 0; members && i < scene->n_leaves; i++) {
-        fill_member(scene, cells, bin, sun > 0 ? scene->sun.to : zenith, i, &members[i]);
+        fill_member(scene, cells, bin, sun > 0 ? scene->sun.to : zenith, i,
+                    &members[i]);
     }
     if (members) {
         qsort(members, scene->n_leaves, sizeof *members, by_category);
@@ -107,8 +109,8 @@ static void add_category(squares *s, const category *c) {
 static double root_ratio(const double s[2]) { return s[1] > 0 ? sqrt(s[0] / s[1]) : 0; }
 
 static void score_band(const pps_scene *scene, const member *members,
-                       const pps_irradiance *model, const pps_irradiance *truth, int band,
-                       pps_score *score) {
+                       const pps_irradiance *model, const pps_irradiance *truth,
+                       int band, pps_score *score) {
     squares level[PPS_SCORE_LEVELS] = {0};
     double sum[2] = {0, 0};
     for (size_t i = 0, first = 0; i < scene->n_leaves; first = i) {
@@ -150,7 +152,8 @@ static pps_status run_model(const pps_contender *c, const pps_scene *scene,
     pps_light_field *field = NULL;
     if (!c->model->ops->solve) {
         double start = now();
-        pps_status status = pps_light_model_run(c->model, scene, cells, &c->options, out);
+        pps_status status =
+            pps_light_model_run(c->model, scene, cells, &c->options, out);
         *seconds = now() - start;
         return status;
     }
@@ -202,7 +205,10 @@ pps_status pps_score_models(const pps_scene *scene, const pps_cells *cells,
     return status;
 }
 
-#define ROW(label, id, ...) {label, &pps_light_##id, {__VA_ARGS__}}
+#define ROW(label, id, ...)                                                            \
+    {                                                                                  \
+        label, &pps_light_##id, { __VA_ARGS__ }                                        \
+    }
 #define MODEL(name) extern const pps_light_model pps_light_##name;
 #include "tree/models.def"
 #undef MODEL

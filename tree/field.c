@@ -88,7 +88,8 @@ static void sum_albedos(const pps_scene *scene, const pps_cells *cells, size_t w
         double share[PPS_BANDS_MAX], square = pow(scene->instance[k].scale, 2);
         prototype_albedo(&p->optics, width - 1, share);
         for (size_t l = 0; l < p->mesh->n_leaves; l++, i++) {
-            double area = p->mesh->leaf[l].area * square, *at = sum + cells->cell_of[i] * width;
+            double area = p->mesh->leaf[l].area * square,
+                   *at = sum + cells->cell_of[i] * width;
             for (size_t b = 0; b < width - 1; b++) {
                 at[b] += area * share[b];
                 whole[b] += area * share[b];
@@ -113,8 +114,8 @@ pps_status pps_cell_albedos(const pps_scene *scene, const pps_cells *cells,
     sum_albedos(scene, cells, n_bands + 1, sum);
     for (size_t c = 0; c < n; c++) {
         /* A cell with parts of leaves that count in others takes the scene's mean. */
-        const double *at = sum + (sum[c * (n_bands + 1) + n_bands] > 0 ? c : n) *
-                                     (n_bands + 1);
+        const double *at =
+            sum + (sum[c * (n_bands + 1) + n_bands] > 0 ? c : n) * (n_bands + 1);
         for (size_t b = 0; b < n_bands; b++) {
             (*albedo)[c * n_bands + b] =
                 (float)(at[n_bands] > 0 ? at[b] / at[n_bands] : 0);

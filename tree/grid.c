@@ -45,9 +45,8 @@ void pps_grid_smooth(const pps_cells *cells, const double *in, double *out) {
     for (int z = 0; z < cells->n[2]; z++) {
         for (int y = 0; y < cells->n[1]; y++) {
             for (int x = 0; x < cells->n[0]; x++, c++) {
-                out[c] = cells->area[c] > 0
-                             ? mean_about(cells, in, (int[]){x, y, z})
-                             : 0;
+                out[c] =
+                    cells->area[c] > 0 ? mean_about(cells, in, (int[]){x, y, z}) : 0;
             }
         }
     }

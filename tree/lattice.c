@@ -24,15 +24,16 @@ enum { SWEEPS_MAX = 200, DARK_SWEEPS_MAX = 60, PARALLEL_CELLS = 1500 };
 struct pps_lattice {
     size_t n_cells, n_leaf_cells, n_columns;
     int n_directions, threads;
-    bool ground;
+    bool ground, isotropic;
     double gap, kappa_given;
     uint32_t *leaf_cell;
-    float *depth;                /* per cell: sigma times side */
-    float *kappa;                /* per leaf cell: escape factor */
-    pps_bands *albedo, *direct;  /* per leaf cell */
-    pps_bands *source, *beam;    /* per cell: scattered evenly, and of the sun alone */
-    pps_bands phase[PPS_SWEEP_DIRECTIONS_MAX]; /* of the sun's first scattering, less 1 */
-    pps_bands *sum[2], *flux[2]; /* per cell, downward and upward half */
+    float *depth;               /* per cell: sigma times side */
+    float *kappa;               /* per leaf cell: escape factor */
+    pps_bands *albedo, *direct; /* per leaf cell */
+    pps_bands *source, *beam;   /* per cell: scattered evenly, and of the sun alone */
+    pps_bands
+        phase[PPS_SWEEP_DIRECTIONS_MAX]; /* of the sun's first scattering, less 1 */
+    pps_bands *sum[2], *flux[2];         /* per cell, downward and upward half */
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
     size_t n_state;
     pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
@@ -70,6 +71,8 @@ bool pps_lattice_fits(const pps_lattice *l, const pps_lit_scene *lit) {
     return l->kappa_given == lit->options.kappa && l->ground == ground->present &&
            l->gap == gap_below(lit->scene, lit->cells);
 }
+
+void pps_lattice_set_isotropic(pps_lattice *l) { l->isotropic = true; }
 
 void pps_lattice_forget(pps_lattice *l) {
     memset(l->state, 0, l->n_state * sizeof *l->state);
@@ -225,8 +228,8 @@ static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
-        l->kappa[i] = (float)(given > 0 ? given
-                                        : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+        l->kappa[i] =
+            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
     }
     free(kept);
     return PPS_OK;
@@ -238,9 +241,18 @@ static pps_status measure_escape(pps_lattice *l, const pps_cells *cells, double 
     double weight[PPS_SWEEP_DIRECTIONS_MAX];
     pps_sweeper sweeper = {0};
     pps_bands one = pps_bands_all(1);
-    pps_sweep half[2] = {
-        {.source = l->source, .beam = l->beam, .phase = l->phase, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .beam = l->beam, .phase = l->phase, .top = one, .side = one, .sum = l->sum[1]}};
+    pps_sweep half[2] = {{.source = l->source,
+                          .beam = l->beam,
+                          .phase = l->phase,
+                          .top = one,
+                          .side = one,
+                          .sum = l->sum[0]},
+                         {.source = l->source,
+                          .beam = l->beam,
+                          .phase = l->phase,
+                          .top = one,
+                          .side = one,
+                          .sum = l->sum[1]}};
     for (int j = 0; j < l->n_directions; j++) {
         weight[j] = 1.0 / l->n_directions;
     }
@@ -318,7 +330,8 @@ static double reflected_excess(const pps_scene *scene, int band) {
         pps_mesh_measure(p->mesh, &size);
         double area = size.leaf_area * pow(scene->instance[k].scale, 2);
         for (int face = 0; face < 2; face++) {
-            excess += area * (o->reflectance[face][band] - o->transmittance[face][band]);
+            excess +=
+                area * (o->reflectance[face][band] - o->transmittance[face][band]);
             sum += area * (o->reflectance[face][band] + o->transmittance[face][band]);
         }
     }
@@ -336,9 +349,11 @@ static void set_phase(pps_lattice *l, const pps_scene *scene) {
     for (int b = 0; b < scene->n_bands; b++) {
         odd[b] = (float)(-4.0 / 3 * reflected_excess(scene, b));
     }
+    double even = l->isotropic ? 0 : 5.0 / 32;
     for (int j = 0; j < PPS_ORDINATES; j++) {
         double mu = vec_dot(to[j], scene->sun.to);
-        l->phase[j] = (float)mu * odd + pps_bands_all((float)(5.0 / 32 * (3 * mu * mu - 1)));
+        l->phase[j] = (float)(l->isotropic ? 0 : mu) * odd +
+                      pps_bands_all((float)(even * (3 * mu * mu - 1)));
     }
 }
 
@@ -373,16 +388,21 @@ static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *cle
     pps_sweeper sweeper;
     double to[1][3];
     memcpy(to, lit->scene->sun.to, sizeof to);
-    pps_status status = pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic,
-                                         l->depth, 1, (const double(*)[3])to,
-                                         &(double){1}, l->gap);
+    pps_status status =
+        pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic, l->depth, 1,
+                         (const double(*)[3])to, &(double){1}, l->gap);
     if (status) {
         return status;
     }
     pps_bands one = pps_bands_all(1);
     memset(l->source, 0, l->n_cells * sizeof(pps_bands));
     pps_sweep half[2] = {
-        {.source = l->source, .beam = l->source, .phase = l->phase, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source,
+         .beam = l->source,
+         .phase = l->phase,
+         .top = one,
+         .side = one,
+         .sum = l->sum[0]},
         {.source = l->source, .beam = l->source, .phase = l->phase, .sum = l->sum[1]}};
     sweep_dark(l, &sweeper, half);
     pps_sweep_clear(&sweeper, &sweeper.group[0], 0, clear);
@@ -447,8 +467,9 @@ static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
  * the sweeper, and l->fall. */
 static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
                        bool flux) {
-    pps_sweep half[2] = {{.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[0]},
-                         {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[1]}};
+    pps_sweep half[2] = {
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[0]},
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[1]}};
     const pps_bands *sides = l->state + l->n_leaf_cells;
     size_t n_sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
     memcpy(l->sweeper.faces, sides, n_sides * sizeof *sides);

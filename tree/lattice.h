@@ -32,6 +32,9 @@ pps_status pps_lattice_solve(pps_lattice *lattice, const pps_lit_scene *lit,
 /* Start the next solve from no light. */
 void pps_lattice_forget(pps_lattice *lattice);
 
+/* Scatter the sun's light evenly from now on, as the slab library does at g = 0. */
+void pps_lattice_set_isotropic(pps_lattice *lattice);
+
 /* The escape factor of a cell. */
 double pps_lattice_kappa(const pps_lattice *lattice, size_t c);
 

@@ -84,10 +84,8 @@ static scattered consistent(const place *at) {
     pps_slab_light_init(&light, at->closure, at->albedo, at->w);
     march(at, &light, phi, flux);
     double slab = pps_slab_light_sum(&light, at->d);
-    scattered s = {.phi = phi[0],
-                   .over = phi[0],
-                   .under = slab - phi[1],
-                   .more_phi = phi[1]};
+    scattered s = {
+        .phi = phi[0], .over = phi[0], .under = slab - phi[1], .more_phi = phi[1]};
     memcpy(s.flux, flux[0], sizeof s.flux);
     memcpy(s.more_flux, flux[1], sizeof s.more_flux);
     return s;

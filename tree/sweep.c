@@ -20,8 +20,8 @@ static bool same_octant(const pps_sweep_group *g, const int sign[3]) {
     return g->sign[0] == sign[0] && g->sign[1] == sign[1] && g->sign[2] == sign[2];
 }
 
-static void add_direction(pps_sweeper *sweeper, int j, const double to[3], double weight,
-                          double gap) {
+static void add_direction(pps_sweeper *sweeper, int j, const double to[3],
+                          double weight, double gap) {
     int sign[3];
     for (int i = 0; i < 3; i++) {
         sign[i] = to[i] > 0 ? -1 : 1; /* of travel */

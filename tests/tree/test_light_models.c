@@ -162,13 +162,13 @@ static void check(const crown_case *c, const scores *s, int band) {
 static void lattice_and_the_best_closed_form_hold_their_errors(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        pps_experiment e = {.crown = {.shape = cases[i].shape,
-                                      .leaf_area_index = cases[i].index},
-                            .period = cases[i].period,
-                            .zenith = cases[i].zenith,
-                            .sky = cases[i].sky,
-                            .n_bands = 3,
-                            .albedo = {0.5, 0.8, 0.95}};
+        pps_experiment e = {
+            .crown = {.shape = cases[i].shape, .leaf_area_index = cases[i].index},
+            .period = cases[i].period,
+            .zenith = cases[i].zenith,
+            .sky = cases[i].sky,
+            .n_bands = 3,
+            .albedo = {0.5, 0.8, 0.95}};
         if (!whole && !cases[i].sample) {
             continue;
         }

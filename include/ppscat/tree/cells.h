@@ -45,7 +45,8 @@ typedef struct pps_cells {
     double *area;       /* one-sided alpha-weighted leaf area, m^2 */
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
-    uint32_t *n_points; /* per cell: points that depths and visibilities are means over */
+    uint32_t
+        *n_points; /* per cell: points that depths and visibilities are means over */
     /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
      * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
      * the way on (sun_clear, "nothing behind"). */
