@@ -67,3 +67,20 @@ void pps_bounce_lambert(const double normal[3], double side, double u, double v,
     }
     vec_normalize(out);
 }
+
+bool pps_bounce_ground(const pps_scene *scene, pps_line *line) {
+    double height = line->origin[2] - scene->ground.height;
+    if (!scene->ground.present || line->direction[2] >= 0 || height < 0) {
+        return false;
+    }
+    line->far = -height / line->direction[2];
+    return true;
+}
+
+uint64_t pps_bounce_most(const pps_trace_options *o) {
+    const unsigned indirect = PPS_SUN_INDIRECT | PPS_SKY_INDIRECT;
+    if (o->sources && !(o->sources & indirect)) {
+        return 0;
+    }
+    return o->bounces ? (uint64_t)o->bounces : UINT64_MAX;
+}

@@ -7,7 +7,9 @@
 #ifndef PPS_TREE_BOUNCE_H
 #define PPS_TREE_BOUNCE_H
 
-#include <ppscat/tree/scene.h>
+#include <ppscat/tree/light.h>
+
+#include "tree/rays.h"
 
 /* Reflected (true) or transmitted, at random by u; q becomes that of the way chosen. The
  * sum of q over bands never grows. */
@@ -20,5 +22,11 @@ bool pps_bounce_lives(int n_bands, double *q, uint64_t bounces, double u);
 /* A direction by Lambert's law about side * normal. */
 void pps_bounce_lambert(const double normal[3], double side, double u, double v,
                         double out[3]);
+
+/* End a line at the ground; false if it does not meet it. */
+bool pps_bounce_ground(const pps_scene *scene, pps_line *line);
+
+/* How many scatterings the options allow. */
+uint64_t pps_bounce_most(const pps_trace_options *options);
 
 #endif

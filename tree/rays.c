@@ -121,8 +121,7 @@ static void measure_mesh(const pps_mesh *mesh, prototype *p) {
     }
 }
 
-static RTCGeometry triangles(RTCDevice device, const pps_mesh *mesh,
-                             const double center[3]) {
+static RTCGeometry triangles(RTCDevice device, pps_mesh *mesh, const double center[3]) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *position =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -136,7 +135,7 @@ static RTCGeometry triangles(RTCDevice device, const pps_mesh *mesh,
         }
         memcpy(index, mesh->triangle, mesh->n_triangles * sizeof *mesh->triangle);
         if (any_holes(mesh)) {
-            rtcSetGeometryUserData(geometry, (void *)(uintptr_t)mesh);
+            rtcSetGeometryUserData(geometry, mesh);
             rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
             rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes);
         }
@@ -157,7 +156,7 @@ static RTCScene new_scene(RTCDevice device) {
 static pps_status build_prototypes(pps_rays *rays) {
     for (size_t i = 0; i < rays->scene->n_prototypes; i++) {
         prototype *p = &rays->prototype[i];
-        const pps_mesh *mesh = rays->scene->prototype[i].mesh;
+        pps_mesh *mesh = rays->scene->prototype[i].mesh;
         measure_mesh(mesh, p);
         p->scene = new_scene(rays->device);
         RTCGeometry geometry = triangles(rays->device, mesh, p->center);

@@ -161,16 +161,6 @@ static bool meet_ground(const tracer *t, path *p, const pps_uniforms *r) {
     return go_on(t, p, before, r->u[3]);
 }
 
-/* Ends the line at the ground; false if it does not meet it. */
-static bool end_at_ground(const pps_scene *scene, pps_line *line) {
-    double height = line->origin[2] - scene->ground.height;
-    if (!scene->ground.present || line->direction[2] >= 0 || height < 0) {
-        return false;
-    }
-    line->far = -height / line->direction[2];
-    return true;
-}
-
 static void trace_ray(const tracer *t, uint64_t i, path *p) {
     pps_launch_ray(&t->launch, i, &p->ray);
     p->bounces = (p->ray.source & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT)) != 0;
@@ -180,7 +170,7 @@ static void trace_ray(const tracer *t, uint64_t i, path *p) {
     bool lives = p->ray.q[0] + p->ray.q[1] + p->ray.q[2] + p->ray.q[3] > 0;
     for (uint64_t event = 1; lives; event++) {
         pps_uniforms r = pps_random(t->launch.seed, stream, i, event);
-        bool ground = end_at_ground(t->scene, &p->ray.line);
+        bool ground = pps_bounce_ground(t->scene, &p->ray.line);
         pps_hit hit;
         if (!pps_rays_nearest(t->rays, &p->ray.line, &hit)) {
             lives = ground && meet_ground(t, p, &r);
@@ -234,6 +224,9 @@ static pps_status trace_all(const tracer *t, const pps_trace_options *o,
             stop = !o->progress(o->user, now, t->n_rays);
         }
     }
+    if (o->progress && !stop) {
+        o->progress(o->user, t->n_rays, t->n_rays);
+    }
     for (int64_t k = 0; k < n_blocks && energy; k++) {
         add_energy(energy, &block[k]);
     }
@@ -267,10 +260,7 @@ static pps_status prepare(tracer *t, const pps_trace_options *o) {
     const pps_scene *scene = t->scene;
     size_t n = 2 * scene->n_leaves * (size_t)scene->n_bands + 1;
     t->sources = o->sources ? o->sources : PPS_ALL_LIGHT;
-    t->most_bounces = o->bounces ? (uint64_t)o->bounces : UINT64_MAX;
-    if (!(t->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT))) {
-        t->most_bounces = 0;
-    }
+    t->most_bounces = pps_bounce_most(o);
     t->sum = calloc(n, sizeof *t->sum);
     t->square = calloc(n, sizeof *t->square);
     pps_status status =

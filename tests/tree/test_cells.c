@@ -99,7 +99,7 @@ typedef struct {
 } level_mean;
 
 static level_mean mean_of_level(const pps_cells *cells, int z, double mu) {
-    size_t layer = (size_t)(cells->n[0] * cells->n[1]);
+    size_t layer = (size_t)cells->n[0] * (size_t)cells->n[1];
     level_mean mean = {0, 0, 0};
     double whole = 0;
     for (size_t j = 0; j < 22; j++) {

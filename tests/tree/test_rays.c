@@ -247,8 +247,8 @@ static void a_repeating_scene_is_many_copies(void **state) {
     many->instance = realloc(many->instance, N * N * sizeof *many->instance);
     many->n_instances = N * N;
     for (int i = 0; i < N * N; i++) {
-        many->instance[i] = (pps_instance){
-            0, {5 + 1.7 * (i % N - REACH), -3 + 2.9 * (i / N - REACH), 2}, 30, 1};
+        int x = i % N - REACH, y = i / N - REACH;
+        many->instance[i] = (pps_instance){0, {5 + 1.7 * x, -3 + 2.9 * y, 2}, 30, 1};
     }
     assert_int_equal(pps_scene_index(many), PPS_OK);
     pps_rays *all = make_rays(many);

@@ -65,8 +65,9 @@ PPS_API pps_status pps_trace_light(const pps_scene *scene,
                                    pps_irradiance **out, pps_energy *energy);
 
 /* The second reference: from every leaf in `leaf` (numbers in the scene, n of them; NULL:
- * all) `samples` paths a face are gathered backwards. rays and seed as above. Leaves that
- * were not asked for are NaN. */
+ * all) `samples` >= 1 paths a face go backwards. Options as above; `rays` does not count,
+ * and progress is in leaves. Leaves that were not asked for are NaN; the errors of one
+ * sample are infinite. */
 PPS_API pps_status pps_gather_light(const pps_scene *scene, size_t n,
                                     const size_t *leaf, int samples,
                                     const pps_trace_options *options,
