@@ -4,7 +4,8 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(cmake ninja-build gcc libc6-dev pkg-config
     liblapacke-dev libopenblas-dev libgsl-dev librandom123-dev
-    libjansson-dev libcmocka-dev libembree-dev)
+    libjansson-dev libpng-dev libcmocka-dev
+    libassimp-dev libembree-dev libturbojpeg0-dev)
 
 say() { printf '== %s\n' "$*"; }
 

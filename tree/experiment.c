@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double DEFAULT_BIN = 0.5;
-enum { DEFAULT_RAYS = 2000000, DEFAULT_SAMPLES = 8 };
+enum { DEFAULT_RAYS = 2000000, DEFAULT_SAMPLES = 16 };
 static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category */
 
 /* ---- categories ---- */

@@ -8,7 +8,9 @@
 #include <ppscat/tree/mesh.h>
 
 #include "tree/alpha.h"
+#include "tree/hull.h"
 #include "tree/vec.h"
+#include "tree/weld.h"
 
 void pps_mesh_free(pps_mesh *mesh) {
     if (!mesh) {
@@ -64,8 +66,7 @@ static int by_place(const void *a, const void *b) {
     return (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
-/* same[v]: the first of the vertices that lie where v does. */
-static pps_status weld(const pps_mesh *mesh, uint32_t *same) {
+pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
     place *places = malloc((mesh->n_vertices + 1) * sizeof *places);
     if (!places) {
         return PPS_ERR_MEMORY;
@@ -103,36 +104,6 @@ static bool is_leaf(const pps_mesh *mesh, size_t triangle) {
     return mesh->material[mesh->material_of[triangle]].leaf;
 }
 
-/* Join the leaf triangles that share an edge; leaves that meet in a point stay apart. */
-static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
-    uint32_t *same = malloc((mesh->n_vertices + 1) * sizeof *same);
-    edge *edges = malloc((3 * mesh->n_triangles + 1) * sizeof *edges);
-    pps_status status = same && edges ? weld(mesh, same) : PPS_ERR_MEMORY;
-    size_t n = 0;
-    for (uint32_t t = 0; !status && t < mesh->n_triangles; t++) {
-        parent[t] = t;
-        for (int i = 0; i < 3 && is_leaf(mesh, t); i++) {
-            uint32_t a = same[mesh->triangle[t][i]];
-            uint32_t b = same[mesh->triangle[t][(i + 1) % 3]];
-            edges[n++] = (edge){a < b ? a : b, a < b ? b : a, t};
-        }
-    }
-    if (!status) {
-        qsort(edges, n, sizeof *edges, by_edge);
-        for (size_t i = 1; i < n; i++) {
-            if (edges[i].low == edges[i - 1].low &&
-                edges[i].high == edges[i - 1].high) {
-                join(parent, edges[i - 1].triangle, edges[i].triangle);
-            }
-        }
-    }
-    free(same);
-    free(edges);
-    return status;
-}
-
-/* ---- leaves ---- */
-
 static void triangle_vector(const pps_mesh *mesh, size_t t, double center[3],
                             double twice_area[3]) {
     const double *a = mesh->position[mesh->triangle[t][0]];
@@ -147,15 +118,65 @@ static void triangle_vector(const pps_mesh *mesh, size_t t, double center[3],
     }
 }
 
+/* Of the triangles at an edge two join; where more meet (crossed cards, say) only those
+ * that go on into each other, their planes within 30 degrees. */
+static void join_at_edge(const pps_mesh *mesh, const edge *at, size_t n,
+                         uint32_t *parent) {
+    static const double COSINE = 0.8660254037844386;
+    enum { MOST_AT_EDGE = 64 }; /* more are no leaves, and would take long */
+    for (size_t i = 0; i < n && n <= MOST_AT_EDGE; i++) {
+        for (size_t j = i + 1; j < n; j++) {
+            double center[3], a[3], b[3];
+            triangle_vector(mesh, at[i].triangle, center, a);
+            triangle_vector(mesh, at[j].triangle, center, b);
+            bool flat = fabs(vec_dot(a, b)) >= COSINE * vec_length(a) * vec_length(b);
+            if (n == 2 || flat) {
+                join(parent, at[i].triangle, at[j].triangle);
+            }
+        }
+    }
+}
+
+/* Join the leaf triangles that share an edge; leaves that meet in a point stay apart. */
+static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
+    uint32_t *same = malloc((mesh->n_vertices + 1) * sizeof *same);
+    edge *edges = malloc((3 * mesh->n_triangles + 1) * sizeof *edges);
+    pps_status status = same && edges ? pps_mesh_weld(mesh, same) : PPS_ERR_MEMORY;
+    size_t n = 0;
+    for (uint32_t t = 0; !status && t < mesh->n_triangles; t++) {
+        parent[t] = t;
+        for (int i = 0; i < 3 && is_leaf(mesh, t); i++) {
+            uint32_t a = same[mesh->triangle[t][i]];
+            uint32_t b = same[mesh->triangle[t][(i + 1) % 3]];
+            edges[n++] = (edge){a < b ? a : b, a < b ? b : a, t};
+        }
+    }
+    if (!status) {
+        qsort(edges, n, sizeof *edges, by_edge);
+        for (size_t i = 0, next; i < n; i = next) {
+            for (next = i + 1; next < n && edges[next].low == edges[i].low &&
+                               edges[next].high == edges[i].high;
+                 next++) {
+            }
+            join_at_edge(mesh, edges + i, next - i, parent);
+        }
+    }
+    free(same);
+    free(edges);
+    return status;
+}
+
+/* ---- leaves ---- */
+
 /* Center and normal weigh the whole triangles, so they are defined without any alpha. */
-static void measure_leaf(const pps_mesh *mesh, pps_leaf *leaf) {
+static void measure_leaf(const pps_mesh *mesh, const double *share, pps_leaf *leaf) {
     double whole = 0, sum[3] = {0}, normal[3] = {0}, area = 0;
     for (size_t t = leaf->first; t < leaf->first + leaf->n_triangles; t++) {
         double center[3], twice[3];
         triangle_vector(mesh, t, center, twice);
         double a = vec_length(twice) / 2;
         whole += a;
-        area += a * pps_alpha_coverage(mesh, t);
+        area += a * share[t];
         vec_along(sum, a, center, sum);
         vec_along(normal, 1, twice, normal);
     }
@@ -221,8 +242,12 @@ static pps_status sort_triangles(pps_mesh *mesh, const ranked *rank) {
 
 static pps_status collect_leaves(pps_mesh *mesh) {
     mesh->leaf = calloc(mesh->n_leaves + 1, sizeof *mesh->leaf);
-    if (!mesh->leaf) {
-        return PPS_ERR_MEMORY;
+    double *share = malloc(mesh->n_triangles * sizeof *share);
+    pps_status status =
+        mesh->leaf && share ? pps_alpha_coverage(mesh, share) : PPS_ERR_MEMORY;
+    if (status) {
+        free(share);
+        return status;
     }
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         if (mesh->leaf_of[t] != PPS_NO_LEAF) {
@@ -232,8 +257,9 @@ static pps_status collect_leaves(pps_mesh *mesh) {
         }
     }
     for (size_t i = 0; i < mesh->n_leaves; i++) {
-        measure_leaf(mesh, &mesh->leaf[i]);
+        measure_leaf(mesh, share, &mesh->leaf[i]);
     }
+    free(share);
     return PPS_OK;
 }
 
@@ -287,44 +313,6 @@ static void grow_box(double low[3], double high[3], const double p[3]) {
     }
 }
 
-static int by_xy(const void *a, const void *b) {
-    const double *p = a, *q = b;
-    if (p[0] != q[0]) {
-        return p[0] < q[0] ? -1 : 1;
-    }
-    return (p[1] > q[1]) - (p[1] < q[1]);
-}
-
-static double turn(const double o[2], const double a[2], const double b[2]) {
-    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-}
-
-/* Area of the convex hull of n points, which it sorts (Andrew's monotone chain). */
-static double hull_area(size_t n, double (*point)[2]) {
-    double(*hull)[2] = malloc((2 * n + 1) * sizeof *hull), area = 0;
-    size_t m = 0;
-    if (!hull || n < 3) {
-        free(hull);
-        return 0;
-    }
-    qsort(point, n, sizeof *point, by_xy);
-    for (size_t i = 0; i < n; i++) { /* lower side */
-        for (; m >= 2 && turn(hull[m - 2], hull[m - 1], point[i]) <= 0; m--) {
-        }
-        memcpy(hull[m++], point[i], sizeof *hull);
-    }
-    for (size_t i = n - 1, lower = m + 1; i-- > 0;) { /* and back along the upper */
-        for (; m >= lower && turn(hull[m - 2], hull[m - 1], point[i]) <= 0; m--) {
-        }
-        memcpy(hull[m++], point[i], sizeof *hull);
-    }
-    for (size_t i = 1; i + 1 < m; i++) {
-        area += turn(hull[0], hull[i], hull[i + 1]) / 2;
-    }
-    free(hull);
-    return area;
-}
-
 void pps_mesh_measure(const pps_mesh *mesh, pps_mesh_size *size) {
     *size = (pps_mesh_size){.radius = 0};
     for (int i = 0; i < 3; i++) {
@@ -352,7 +340,7 @@ void pps_mesh_measure(const pps_mesh *mesh, pps_mesh_size *size) {
         size->center[i] = (size->leaf_low[i] + size->leaf_high[i]) / 2;
         size->radius += i < 2 ? (size->leaf_high[i] - size->leaf_low[i]) / 4 : 0;
     }
-    double area = hull_area(n, point);
+    double area = pps_hull_area(n, point);
     size->leaf_area_index = area > 0 ? size->leaf_area / area : 0;
     free(point);
 }

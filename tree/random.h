@@ -19,7 +19,8 @@ typedef enum {
     PPS_RANDOM_SKY,
     PPS_RANDOM_GATHER,
     PPS_RANDOM_CELLS,
-    PPS_RANDOM_RENDER
+    PPS_RANDOM_RENDER,
+    PPS_RANDOM_SCENE
 } pps_random_stream;
 
 typedef struct {

@@ -5,7 +5,7 @@
 #ifndef PPSCAT_TREE_GROW_H
 #define PPSCAT_TREE_GROW_H
 
-#include <ppscat/tree/mesh.h>
+#include <ppscat/tree/scene.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,10 +29,16 @@ typedef struct pps_crown {
 
 PPS_API pps_status pps_crown_grow(const pps_crown *crown, pps_mesh **out);
 
-/* A species is a JSON file, docs/tree-files.md; `name` is a file or the name of a species
- * that is installed with the program ("cherry", "maple"). */
+/* A plant with its foot at the origin, of a species: "cherry" or "maple", or a JSON file
+ * (docs/species.md) when `name` has a '/' or ends in ".json". Triangles and leaf-area index
+ * are those of the species, whatever the seed. Materials are "leaf" and "wood". ARGUMENT:
+ * no species of that name; FILE; FORMAT: the problem names the line or the JSON pointer. */
 PPS_API pps_status pps_species_grow(const char *name, uint64_t seed, pps_mesh **out,
                                     pps_problem *problem);
+
+/* What a species' leaves reflect and transmit: bands red, green and blue of both faces. */
+PPS_API pps_status pps_species_optics(const char *name, pps_leaf_optics *out,
+                                      pps_problem *problem);
 
 #ifdef __cplusplus
 }

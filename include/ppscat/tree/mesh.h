@@ -59,6 +59,7 @@ typedef struct pps_mesh {
     pps_leaf *leaf;          /* n_leaves */
     pps_material *material;  /* n_materials */
     pps_texture *texture;    /* n_textures */
+    size_t n_doubled; /* triangles that pps_mesh_read left out, as they lay on others */
 } pps_mesh;
 
 /* Size in numbers. `center` and `radius` bound the leaves: the middle of their box and
@@ -74,7 +75,9 @@ typedef struct pps_mesh_size {
 
 /* From raw triangles to a mesh: `position`, `triangle`, `material_of` and `material` (and
  * uv, texture) are set; groups the triangles into leaves, puts them in order, and fills
- * leaf_of and leaf. Vertices at the same place are one for what is connected. A piece of
+ * leaf_of and leaf. Vertices at the same place are one for what is connected; where more
+ * than two triangles meet at an edge, those within 30 degrees are (crossed cards are two
+ * leaves). A piece of
  * more than PPS_LEAF_TRIANGLES triangles is foliage without leaves of its own: each of its
  * triangles is then a leaf. MEMORY; ARGUMENT: an index out of range, or no triangle. */
 enum { PPS_LEAF_TRIANGLES = 64 };
@@ -83,15 +86,50 @@ PPS_API pps_status pps_mesh_finish(pps_mesh *mesh);
 PPS_API void pps_mesh_free(pps_mesh *mesh); /* NULL is fine */
 PPS_API void pps_mesh_measure(const pps_mesh *mesh, pps_mesh_size *size);
 
-/* Read what Assimp reads (OBJ, glTF, PLY, FBX ...). A material whose name matches the
- * extended regular expression `leaf` (NULL: "leaf|leaves|foliage", case ignored) is leaf,
- * the rest is wood; without any material name that matches, ARGUMENT. y-up formats are
- * turned to z up. FILE: cannot be read; FORMAT: not a mesh, or empty. */
-PPS_API pps_status pps_mesh_read(const char *path, const char *leaf, pps_mesh **out,
-                                 pps_problem *problem);
+/* Which way is up in a file. */
+typedef enum {
+    PPS_UP_OF_FORMAT, /* what the format says: z in PLY and STL, what an FBX file states,
+                         y in all others */
+    PPS_UP_X,
+    PPS_UP_Y,
+    PPS_UP_Z
+} pps_up;
 
-/* Write by the name's ending: .obj (and .mtl, and the textures beside it) or .ply.
- * color: NULL or linear rgb of each vertex, [3 * vertex], clipped to 0..1. */
+typedef struct pps_mesh_read_options {
+    const char *leaf; /* POSIX extended regular expression, case ignored; NULL:
+                         "leaf|leaves|foliage" */
+    pps_up up;
+    const char
+        *leaf_image; /* PNG or JPEG for leaf materials that have no image of their
+                               own, cut where its alpha is below 0.5; NULL: none */
+    double
+        unit; /* metres that the file's unit is; 0: 1 (FBX and Collada tell their own,
+                    which are honoured before) */
+} pps_mesh_read_options;
+
+/* Read what Assimp reads: OBJ, glTF, PLY, FBX ... A triangle is leaf if the name of its
+ * material matches `leaf`; if no material's name does, if the name of its object (node or
+ * mesh) does; the rest is wood. PLY and STL files have no names: all is leaf.
+ *
+ * Where leaves are cut out by alpha: glTF as its alphaMode says (BLEND is cut at 0.5),
+ * other formats by the opacity image (its alpha channel, else its luminance) or else by
+ * the colour image's alpha channel, cut at 0.5. Textures are PNG or JPEG.
+ *
+ * Of triangles on the same three places one is kept, and of a flat quadrangle that is
+ * covered from both sides the first two: double-sided cards are one leaf (n_doubled says
+ * how many triangles went). Triangles without area are left out.
+ *
+ * FILE: this file, or one it names, cannot be read; FORMAT: not a mesh, or empty;
+ * ARGUMENT: nothing matches `leaf` (the problem lists the names), or a bad option.
+ * NULL options: defaults. */
+PPS_API pps_status pps_mesh_read(const char *path, const pps_mesh_read_options *options,
+                                 pps_mesh **out, pps_problem *problem);
+
+/* Write by the name's ending. .obj: y up, with .mtl and the textures as PNG beside it;
+ * reading it gives the same mesh. .ply: binary, z up; geometry, texture coordinates and
+ * colours alone. color: NULL or linear rgb of each vertex, [3 * vertex], clipped to 0..1,
+ * written as sRGB. FILE: cannot be written (nothing is left under the name);
+ * ARGUMENT: another ending. */
 PPS_API pps_status pps_mesh_write(const pps_mesh *mesh, const char *path,
                                   const float *color, pps_problem *problem);
 

@@ -29,19 +29,25 @@ typedef struct pps_camera {
     double field_of_view; /* vertical, degrees */
 } pps_camera;
 
-/* Looks at the whole scene from an azimuth (degrees from +x) and elevation. */
+/* Has the whole scene in view, from an azimuth (degrees from +x towards +y) and elevation
+ * (degrees); `aspect` is the picture's width over its height. */
 PPS_API void pps_camera_fit(const pps_scene *scene, double azimuth, double elevation,
                             double aspect, pps_camera *camera);
 
-/* Primary rays, n x n a pixel (samples = n): leaves by their irradiance and optics,
- * the ground by `ground_irradiance` of its points in shadow or light, wood as black
- * Lambertian of its colour under the mean leaf irradiance. Bands are red, green, blue in
- * order; one band is grey. */
+/* Primary rays, samples x samples a pixel (1 to 16). A leaf's face has the radiance
+ * (R E + T' E')/pi: its own reflectance and irradiance, the other face's transmittance and
+ * irradiance, times its texture over the texture's mean. Wood (its colour) and ground take
+ * the sun where they see it and, by a few rays, the light of sky and leaves. Bands are red,
+ * green, blue in order; one band is grey. A scene that repeats is shown once, in the light
+ * it has among its copies. MEMORY; UNSUPPORTED: Embree will not run here; ARGUMENT:
+ * irradiance of another scene, samples, or a camera that looks nowhere. */
 PPS_API pps_status pps_render(const pps_scene *scene, const pps_irradiance *irradiance,
                               const pps_camera *camera, int samples,
                               pps_picture *picture);
 
-/* A value a leaf in false colour from low to high, with a colour bar and its title. */
+/* A value a leaf in false colour from low to high, with a colour bar and its title; wood
+ * is dark, the rest white. To be written with exposure 1. ARGUMENT: as above, or low is not
+ * below high. */
 typedef struct pps_false_color {
     const double *value; /* [leaf]; NaN is grey */
     double low, high;

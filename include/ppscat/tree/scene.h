@@ -66,9 +66,29 @@ typedef struct pps_scene {
     size_t n_leaves, *first_leaf;
 } pps_scene;
 
-/* FILE, FORMAT (the problem names the line, or the JSON pointer), MEMORY. */
+/* Read a scene (.json, docs/tree-files.md), or a bare mesh, which gets the light of
+ * pps_scene_of_mesh. FILE, FORMAT (the problem names the line, or the JSON pointer),
+ * MEMORY; ARGUMENT: a bare mesh without leaves. */
 PPS_API pps_status pps_scene_read(const char *path, pps_scene **out,
                                   pps_problem *problem);
+
+/* One mesh, which the scene then owns, in the light of a clear day: bands red, green and
+ * blue, a sun 50 degrees high to the front left of the plant, blue sky, ground at the
+ * plant's foot; optics from the leaves' own colour. The mesh is freed when this fails. */
+PPS_API pps_status pps_scene_of_mesh(pps_mesh *mesh, pps_scene **out);
+
+/* Optics from a mesh's colours, [3] linear red, green, blue: the share that is not absorbed
+ * is the leaves' mean colour (image times material, where the surface is), half of it
+ * reflected and half transmitted by both faces. White leaves without an image are taken as
+ * green ones. */
+PPS_API void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics);
+
+/* Unit vector towards the sun; x is east, y north, z up. Degrees, north and east positive;
+ * time as ISO 8601 with its zone, "2026-06-21T12:00:00+02:00", years 1900 to 2100. Good to
+ * 0.02 degree, without refraction (Meeus 1998, chapter 25). ARGUMENT. */
+PPS_API pps_status pps_sun_direction(double latitude, double longitude,
+                                     const char *time, double to[3],
+                                     pps_problem *problem);
 
 /* One mesh, which the scene then owns, at the origin; sun overhead of irradiance 1, no
  * sky, no ground, one band, the same albedo/2 reflected and transmitted by both faces.

@@ -1,0 +1,11 @@
+# Species files as rows of C: {"name", "text"}, with OUT and FILES given.
+set(rows "/* Made by embed_species.cmake. */\n")
+foreach(file ${FILES})
+    get_filename_component(name ${file} NAME_WE)
+    file(READ ${file} text)
+    string(REPLACE "\\" "\\\\" text "${text}")
+    string(REPLACE "\"" "\\\"" text "${text}")
+    string(REPLACE "\n" "\\n\"\n \"" text "${text}")
+    string(APPEND rows "{\"${name}\",\n \"${text}\"},\n")
+endforeach()
+file(WRITE ${OUT} "${rows}")
