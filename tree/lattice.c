@@ -27,6 +27,7 @@ struct pps_lattice {
     bool ground, isotropic;
     double gap, kappa_given;
     uint32_t *leaf_cell;
+    float *leaf_depth;      /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
     float *kappa;               /* per leaf cell: escape factor */
     pps_bands *albedo, *direct; /* per leaf cell */
@@ -57,6 +58,7 @@ void pps_lattice_free(pps_lattice *l) {
         free(l->leaf_cell);
         free(l->depth);
         free(l->kappa);
+        free(l->leaf_depth);
         free(l->state);
         free(l->weight);
         free(l->albedo);
@@ -136,10 +138,11 @@ static pps_status allocate(pps_lattice *l) {
     l->depth = calloc(n + 1, sizeof *l->depth);
     l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
     l->kappa = malloc((m + 1) * sizeof *l->kappa);
+    l->leaf_depth = malloc((m + 1) * sizeof *l->leaf_depth);
     l->albedo = bands_array(2 * m);
     l->source = bands_array(10 * n + 3 * l->n_columns);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
-    if (!l->depth || !l->leaf_cell || !l->kappa || !l->albedo || !l->source ||
+    if (!l->depth || !l->leaf_cell || !l->kappa || !l->leaf_depth || !l->albedo || !l->source ||
         !l->sky_below) {
         return PPS_ERR_MEMORY;
     }
@@ -168,7 +171,7 @@ static pps_status make_state(pps_lattice *l) {
     }
     l->image = l->state + l->n_state;
     for (size_t i = 0; i < n; i++) {
-        l->weight[i] = l->depth[l->leaf_cell[i]];
+        l->weight[i] = l->leaf_depth[i];
     }
     return pps_anderson_init(&l->anderson, l->n_state, n);
 }
@@ -183,7 +186,8 @@ static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
             continue;
         }
         l->leaf_cell[i] = (uint32_t)c;
-        l->depth[c] = (float)(cells->area[c] / face);
+        l->leaf_depth[i] = (float)(cells->area[c] / face);
+        l->depth[c] += l->leaf_depth[i];
         for (int b = 0; b < scene->n_bands; b++) {
             l->albedo[i][b] = albedo[c * (size_t)scene->n_bands + (size_t)b];
         }
@@ -221,7 +225,7 @@ static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given
             seen += (double)cells->visibility[c * (size_t)n + (size_t)j];
         }
         kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
-        caught[c] = 1 - seen / n;
+        caught[c] = 1 - (seen > 0 && !getenv("OLDK") ? cells->both_clear[c] / (seen / n) : seen / n);
     }
     pps_grid_smooth(cells, kept, mean_kept);
     pps_grid_smooth(cells, caught, mean_caught);
@@ -275,6 +279,47 @@ static pps_status plan_sweeps(pps_lattice *l, const pps_cells *cells) {
                             PPS_ORDINATES, (const double(*)[3])to, weight, l->gap);
 }
 
+/* Wood is black and closed: a ray meets a quarter of its surface. Triangles larger than
+ * half a cell are split. */
+static void add_wood(pps_lattice *l, const pps_cells *cells, const double corner[3][3]) {
+    double a[3], b[3], cross[3], edge = 0;
+    vec_sub(corner[1], corner[0], a);
+    vec_sub(corner[2], corner[0], b);
+    vec_cross(a, b, cross);
+    edge = fmax(vec_length(a), vec_length(b));
+    int n = (int)fmin(fmax(ceil(2 * edge / cells->size), 1), 64);
+    float part = (float)(vec_length(cross) / 2 / (n * n) /
+                         (4 * cells->size * cells->size));
+    for (int i = 0; i < n * n; i++) { /* row r has 2 r + 1 small triangles */
+        int r = (int)sqrt(i + 0.5), k = i - r * r;
+        double u = (r + (k % 2 ? 1 : 2) / 3.0) / n, v = (k / 2 + (k % 2 ? 2 : 1) / 3.0) / n;
+        double at[3];
+        vec_along(corner[0], u - v, a, at);
+        vec_along(at, v, b, at);
+        long c = pps_grid_cell(cells, at);
+        if (c >= 0) {
+            l->depth[c] += part;
+        }
+    }
+}
+
+static void set_wood(pps_lattice *l, const pps_scene *scene, const pps_cells *cells) {
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_instance *instance = &scene->instance[k];
+        const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
+        for (size_t t = 0; t < mesh->n_triangles; t++) {
+            double corner[3][3];
+            for (int i = 0; i < 3; i++) {
+                pps_instance_point(instance, mesh->position[mesh->triangle[t][i]],
+                                   corner[i]);
+            }
+            if (mesh->leaf_of[t] == PPS_NO_LEAF) {
+                add_wood(l, cells, (const double(*)[3])corner);
+            }
+        }
+    }
+}
+
 static void count_cells(pps_lattice *l, const pps_scene *scene,
                         const pps_cells *cells) {
     l->n_cells = cells->n_cells;
@@ -302,6 +347,7 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
         status = plan_sweeps(l, cells);
     }
     if (!status) {
+        set_wood(l, scene, cells);
         status = set_leaf_cells(l, scene, cells);
     }
     if (!status) {
@@ -376,7 +422,7 @@ static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
         size_t c = l->leaf_cell[i];
         const float *seen = &cells->visibility[c * (size_t)l->n_directions];
         l->direct[i] = (float)cells->sun_visibility[c] * e;
-        l->beam[c] = l->depth[c] * l->albedo[i] * l->direct[i];
+        l->beam[c] = l->leaf_depth[i] * l->albedo[i] * l->direct[i];
         for (int j = 0; sky && j < l->n_directions; j++) {
             l->direct[i] += seen[j] * part[j];
         }
@@ -451,7 +497,7 @@ static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
 static void set_source(pps_lattice *l) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        l->source[c] = l->depth[c] * l->albedo[i] * (l->direct[i] + l->state[i]);
+        l->source[c] = l->leaf_depth[i] * l->albedo[i] * (l->direct[i] + l->state[i]);
     }
 }
 

@@ -37,6 +37,7 @@ static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
     c->cell_of = malloc(n * sizeof *c->cell_of);
     c->n_leaves = malloc(n * sizeof *c->n_leaves);
     c->n_points = malloc(n * sizeof *c->n_points);
+    c->both_clear = calloc(n, sizeof *c->both_clear);
     c->sun_depth = calloc(4 * n, sizeof *c->sun_depth);
     c->sun_behind = c->sun_depth + n;
     c->sun_visibility = c->sun_behind + n;
@@ -57,6 +58,7 @@ static void box_free(box *b) {
     free(b->cells.cell_of);
     free(b->cells.n_leaves);
     free(b->cells.n_points);
+    free(b->cells.both_clear);
     free(b->cells.sun_depth);
     free(b->cells.depth);
     pps_scene_free(b->scene);
@@ -373,6 +375,7 @@ static void the_escape_factor_measures_what_cells_cannot_see(void **state) {
         double kappa;
         for (size_t i = 0; i < 22 * b.cells.n_cells; i++) {
             b.cells.visibility[i] = (float)seen[k];
+            b.cells.both_clear[i / 22] = seen[k] * seen[k];
         }
         assert_int_equal(pps_lattice_create(b.scene, &b.cells, 0, 1, &lattice), PPS_OK);
         kappa = pps_lattice_kappa(lattice, 5 * 144 + 5 * 12 + 5);
