@@ -57,7 +57,8 @@ void pps_grid_smooth(const pps_cells *cells, const double *in, double *out) {
 long pps_grid_cell(const pps_cells *cells, const double at[3]) {
     long c = 0;
     for (int axis = 2; axis >= 0; axis--) {
-        double n = cells->n[axis], k = floor((at[axis] - cells->low[axis]) / cells->size);
+        double n = cells->n[axis],
+               k = floor((at[axis] - cells->low[axis]) / cells->size);
         if (cells->periodic && axis < 2) {
             k -= n * floor(k / n);
         }

@@ -27,7 +27,7 @@ struct pps_lattice {
     bool ground, isotropic;
     double gap, kappa_given;
     uint32_t *leaf_cell;
-    float *leaf_depth;      /* per leaf cell: of its leaves alone */
+    float *leaf_depth;          /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
     float *kappa;               /* per leaf cell: escape factor */
     pps_bands *albedo, *direct; /* per leaf cell */
@@ -142,8 +142,8 @@ static pps_status allocate(pps_lattice *l) {
     l->albedo = bands_array(2 * m);
     l->source = bands_array(10 * n + 3 * l->n_columns);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
-    if (!l->depth || !l->leaf_cell || !l->kappa || !l->leaf_depth || !l->albedo || !l->source ||
-        !l->sky_below) {
+    if (!l->depth || !l->leaf_cell || !l->kappa || !l->leaf_depth || !l->albedo ||
+        !l->source || !l->sky_below) {
         return PPS_ERR_MEMORY;
     }
     l->direct = l->albedo + m;
@@ -208,6 +208,21 @@ static void note_sky_below(pps_lattice *l, const pps_sweeper *sweeper) {
     }
 }
 
+/* The share of a cell's scattered light that meets nothing: the mean visibility, more where
+ * those leaves that light reaches are those it leaves from again. */
+static double escape_seen(const pps_cells *cells, size_t c) {
+    int n = cells->directions.n;
+    double sum = 0, squares = 0;
+    for (int j = 0; j < n; j++) {
+        double v = (double)cells->visibility[c * (size_t)n + (size_t)j];
+        sum += v;
+        squares += v * v;
+    }
+    double unrelated = (sum * sum - squares) / (n * (n - 1.0));
+    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1;
+    return fmin(sum / n * related, 1);
+}
+
 /* kappa = (1 - mean visibility at leaves) / (1 - escape on the lattice), each a mean over
  * 3^3 cells: leaves that cluster below a cell catch more of their own light. */
 static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given) {
@@ -217,15 +232,10 @@ static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given
     }
     double *caught = kept + l->n_cells, *mean_kept = caught + l->n_cells,
            *mean_caught = mean_kept + l->n_cells;
-    int n = l->n_directions;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        double seen = 0;
-        for (int j = 0; j < n; j++) {
-            seen += (double)cells->visibility[c * (size_t)n + (size_t)j];
-        }
         kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
-        caught[c] = 1 - (seen > 0 && !getenv("OLDK") ? cells->both_clear[c] / (seen / n) : seen / n);
+        caught[c] = 1 - escape_seen(cells, c);
     }
     pps_grid_smooth(cells, kept, mean_kept);
     pps_grid_smooth(cells, caught, mean_caught);
@@ -281,18 +291,20 @@ static pps_status plan_sweeps(pps_lattice *l, const pps_cells *cells) {
 
 /* Wood is black and closed: a ray meets a quarter of its surface. Triangles larger than
  * half a cell are split. */
-static void add_wood(pps_lattice *l, const pps_cells *cells, const double corner[3][3]) {
+static void add_wood(pps_lattice *l, const pps_cells *cells,
+                     const double corner[3][3]) {
     double a[3], b[3], cross[3], edge = 0;
     vec_sub(corner[1], corner[0], a);
     vec_sub(corner[2], corner[0], b);
     vec_cross(a, b, cross);
     edge = fmax(vec_length(a), vec_length(b));
     int n = (int)fmin(fmax(ceil(2 * edge / cells->size), 1), 64);
-    float part = (float)(vec_length(cross) / 2 / (n * n) /
-                         (4 * cells->size * cells->size));
+    float part =
+        (float)(vec_length(cross) / 2 / (n * n) / (4 * cells->size * cells->size));
     for (int i = 0; i < n * n; i++) { /* row r has 2 r + 1 small triangles */
         int r = (int)sqrt(i + 0.5), k = i - r * r;
-        double u = (r + (k % 2 ? 1 : 2) / 3.0) / n, v = (k / 2 + (k % 2 ? 2 : 1) / 3.0) / n;
+        double u = (r + (k % 2 ? 1 : 2) / 3.0) / n,
+               v = (k / 2 + (k % 2 ? 2 : 1) / 3.0) / n;
         double at[3];
         vec_along(corner[0], u - v, a, at);
         vec_along(at, v, b, at);

@@ -53,8 +53,8 @@ typedef struct pps_cells {
     double *sun_depth, *sun_behind, *sun_visibility, *sun_clear;
     /* The same towards every direction. */
     float *depth, *visibility;
-    /* Mean over pairs of directions, of both being clear from the same point: above the
-     * square of the mean visibility where some leaves of a cell are open and others
+    /* Mean over pairs of directions of both being clear from the same point: above the
+     * product of their visibilities where some leaves of a cell are open and others
      * hidden. */
     double *both_clear;
 } pps_cells;
