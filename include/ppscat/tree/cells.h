@@ -32,8 +32,8 @@ typedef struct pps_cells_options {
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
- * Means over points on the cell's leaves, by area, without the triangle that a point is
- * on. Where area is 0 there are none: depths and visibilities are 0 and mean nothing.
+ * Means over points on the cell's leaves, without the triangle that a point is on: depths
+ * by leaf area, visibilities by the area that leaves turn that way, as light falls on them. Where area is 0 there are none: depths and visibilities are 0 and mean nothing.
  * Depths count branches as leaves, one for all a ray meets; visibilities are 0 behind one.
  * A leaf's points may lie in several cells; cell_of has the most of them. */
 typedef struct pps_cells {
