@@ -180,6 +180,46 @@ static void lattice_and_the_best_closed_form_hold_their_errors(void **state) {
     }
 }
 
+/* An oak by ez-tree: cut-out cards along branches, wood. */
+static void lattice_holds_on_a_tree_made_by_others(void **state) {
+    (void)state;
+    static const double albedo[3] = {0.5, 0.8, 0.95};
+    pps_mesh *mesh;
+    pps_scene *scene;
+    pps_cells *cells;
+    pps_irradiance *truth;
+    assert_int_equal(pps_mesh_read(TREES "/oak_small.obj", NULL, &mesh, NULL), PPS_OK);
+    assert_int_equal(pps_scene_single(mesh, 0.5, &scene), PPS_OK);
+    scene->n_bands = 3;
+    for (int b = 0; b < 3; b++) {
+        pps_leaf_optics *o = &scene->prototype[0].optics;
+        scene->sun.irradiance[b] = 1;
+        for (int face = 0; face < 2; face++) {
+            o->reflectance[face][b] = o->transmittance[face][b] = albedo[b] / 2;
+        }
+    }
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
+    pps_cells_options options = {.samples = 8, .seed = FIRST_SEED};
+    pps_trace_options trace = {.rays = n_rays, .seed = FIRST_SEED};
+    assert_int_equal(pps_cells_create(scene, &options, &cells), PPS_OK);
+    assert_int_equal(pps_cells_set_sun(cells, scene, &options), PPS_OK);
+    assert_int_equal(pps_trace_light(scene, &trace, &truth, NULL), PPS_OK);
+    scores s;
+    size_t n;
+    const pps_contender *contenders = pps_contender_table(&n);
+    assert_int_equal(pps_score_models(scene, cells, truth, 0, n, contenders, s.of),
+                     PPS_OK);
+    for (int b = 0; b < 3; b++) {
+        print_all("oak_small.obj", &s, 3, b);
+        const pps_score *lattice = score_of(&s, "lattice", 3, b);
+        assert_true(lattice->by_count[0] <= 0.16);
+        assert_close(lattice->brightness, 1, 0, 0.07);
+    }
+    pps_irradiance_free(truth);
+    pps_cells_free(cells);
+    pps_scene_free(scene);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) {
         whole = true;
@@ -188,6 +228,7 @@ int main(int argc, char **argv) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(table_3_has_the_papers_order_and_levels),
+        cmocka_unit_test(lattice_holds_on_a_tree_made_by_others),
         cmocka_unit_test(lattice_and_the_best_closed_form_hold_their_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
