@@ -16,7 +16,7 @@
 enum { FIRST_SEED = 7001, CONTENDERS_MAX = 32 };
 static int n_seeds = 1;
 static bool whole = false;
-static uint64_t n_rays = 1000000;
+static uint64_t n_rays = 500000;
 
 /* Means over seeds of all that was scored. */
 typedef struct {
@@ -117,7 +117,7 @@ typedef struct {
 } crown_case;
 
 static const crown_case cases[] = {
-    {"round .8", PPS_CROWN_UNIFORM, 0.8, 0, 0, false, true},
+    {"round .8", PPS_CROWN_UNIFORM, 0.8, 0, 0, false, false},
     {"round .8 period 2.5", PPS_CROWN_UNIFORM, 0.8, 2.5, 0, false, false},
     {"round 1.2 sun 30", PPS_CROWN_UNIFORM, 1.2, 0, 30, false, false},
     {"round 4", PPS_CROWN_UNIFORM, 4, 0, 0, false, false},
@@ -148,9 +148,6 @@ static void check(const crown_case *c, const scores *s, int band) {
            100 * score_of(s, "SPPG", 3, band)->by_count[0],
            score_of(s, "SPPG", 3, band)->brightness);
     fflush(stdout);
-    if (getenv("PPSCAT_REPORT")) {
-        return;
-    }
     assert_true(lattice->category[level] <= 0.06);
     assert_true(lattice->by_count[0] <= 0.03);
     assert_true(lattice->faces[0] <= 0.08);
