@@ -25,7 +25,7 @@ struct pps_lattice {
     size_t n_cells, n_leaf_cells, n_columns;
     int n_directions, threads;
     bool ground, isotropic;
-    double gap, kappa_given;
+    double gap, kappa_given, excess[PPS_BANDS_MAX];
     uint32_t *leaf_cell;
     float *leaf_depth;          /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
@@ -332,6 +332,25 @@ static void set_wood(pps_lattice *l, const pps_scene *scene, const pps_cells *ce
     }
 }
 
+/* (rho - tau) / (rho + tau) of the scene's leaves, by area. */
+static double reflected_excess(const pps_scene *scene, int band) {
+    double excess = 0, sum = 0;
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
+        const pps_leaf_optics *o = &p->optics;
+        double area = 0, square = pow(scene->instance[k].scale, 2);
+        for (size_t i = 0; i < p->mesh->n_leaves; i++) {
+            area += square * p->mesh->leaf[i].area;
+        }
+        for (int face = 0; face < 2; face++) {
+            double r = o->reflectance[face][band], t = o->transmittance[face][band];
+            excess += area * (r - t);
+            sum += area * (r + t);
+        }
+    }
+    return sum > 0 ? excess / sum : 0;
+}
+
 static void count_cells(pps_lattice *l, const pps_scene *scene,
                         const pps_cells *cells) {
     l->n_cells = cells->n_cells;
@@ -353,6 +372,9 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     }
     count_cells(l, scene, cells);
     l->kappa_given = kappa;
+    for (int b = 0; b < scene->n_bands; b++) {
+        l->excess[b] = reflected_excess(scene, b);
+    }
     l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
     pps_status status = allocate(l);
     if (!status) {
@@ -378,24 +400,6 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
 
 /* ---- the light ---- */
 
-/* (rho - tau) / (rho + tau) of the scene's leaves, by area. */
-static double reflected_excess(const pps_scene *scene, int band) {
-    double excess = 0, sum = 0;
-    for (size_t k = 0; k < scene->n_instances; k++) {
-        const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
-        const pps_leaf_optics *o = &p->optics;
-        pps_mesh_size size;
-        pps_mesh_measure(p->mesh, &size);
-        double area = size.leaf_area * pow(scene->instance[k].scale, 2);
-        for (int face = 0; face < 2; face++) {
-            excess +=
-                area * (o->reflectance[face][band] - o->transmittance[face][band]);
-            sum += area * (o->reflectance[face][band] + o->transmittance[face][band]);
-        }
-    }
-    return sum > 0 ? excess / sum : 0;
-}
-
 /* Leaves of random orientation that scatter by Lambert's law have the phase function
  *     1 - 4/3 (rho - tau)/(rho + tau) cos + 5/16 P2(cos) + ..
  * (its moments are those of the leaf's |n.s|, squared). It counts where light has one
@@ -405,7 +409,7 @@ static void set_phase(pps_lattice *l, const pps_scene *scene) {
     pps_ordinates(to, weight);
     pps_bands odd = {0};
     for (int b = 0; b < scene->n_bands; b++) {
-        odd[b] = (float)(-4.0 / 3 * reflected_excess(scene, b));
+        odd[b] = (float)(-4.0 / 3 * l->excess[b]);
     }
     double even = l->isotropic ? 0 : 5.0 / 32;
     for (int j = 0; j < PPS_ORDINATES; j++) {
