@@ -63,8 +63,8 @@ static const column table_columns[] = {
     {"table", "string", NULL, "the table: its number in the paper, or its name"},
     {"row", "string", NULL, "row of the table"},
     {"column", "string", NULL, "column of the table"},
-    {"paper", "double", NULL, "the printed figure; empty where there is none"},
-    {"ours", "double", NULL,
+    {"paper", "double", "1", "the printed figure; empty where there is none"},
+    {"ours", "double", "1",
      "the same measured here: percent in 1, 2, 3 and figure7, trees a second in fps"},
     {"rms_rel", "double", "%",
      "1, 2: mean over angles and depths of the root mean square error / mean exact "
@@ -72,7 +72,7 @@ static const column table_columns[] = {
      "|difference| / mean"},
     {"method", "string", NULL, "name of the method or light model measured"},
     {"ratio", "double", "1", "3, figure7: mean of ours / mean of Monte Carlo"},
-    {"spread", "double", NULL, "3, figure7: half the range of `ours` over the seeds"},
+    {"spread", "double", "1", "3, figure7: half the range of `ours` over the seeds"},
     {0}};
 
 static const column chart_columns[] = {

@@ -1,7 +1,7 @@
 /* Anderson acceleration of x = g(x), each colour band by itself.
  *
  * The next x mixes the last four images g so that the residual g(x) - x, linear in the
- * mixture, is least. Reference: Walker & Ni 2011.
+ * mixture, is least. Reference: WN11.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPS_TREE_ANDERSON_H

@@ -185,30 +185,43 @@ static pps_status sort_points(pps_cells_own *own, int threads) {
 /* ---- depths ---- */
 
 typedef struct {
-    double depth, visibility;
+    double depth, visibility, facing;
 } along;
 
-/* Means over the points of a cell, by leaf area, towards n directions. */
-static void measure_cell(const pps_cells_own *own, size_t cell, int n,
-                         const double (*to)[3], along *mean) {
-    double whole = 0;
+/* Means over the points of a cell towards n directions: depths by leaf area, visibilities
+ * by the area seen from there, as light falls on leaves. Returns the mean over pairs of
+ * directions of both being clear, by the areas seen. */
+static double measure_cell(const pps_cells_own *own, size_t cell, int n,
+                           const double (*to)[3], along *mean) {
+    double whole = 0, pairs = 0, clear_pairs = 0;
     memset(mean, 0, (size_t)n * sizeof *mean);
     for (size_t i = own->first[cell]; i < own->first[cell + 1]; i++) {
         pps_leaf_point p = point_at(own, own->point[i]);
         double weight = weight_of(own, own->point[i]);
+        double seen[2] = {0, 0}, squares[2] = {0, 0}; /* all, clear */
         whole += weight;
         for (int j = 0; j < n; j++) {
             pps_line line = pps_rays_leave(own->rays, p.point, p.normal, to[j]);
             bool wood;
             int count = pps_rays_count(own->rays, &line, &wood);
             mean[j].depth += weight * (count + wood);
-            mean[j].visibility += count == 0 && !wood ? weight : 0;
+            double facing = fabs(vec_dot(p.normal, to[j]));
+            double clear = count == 0 && !wood ? facing : 0;
+            mean[j].facing += weight * facing;
+            mean[j].visibility += weight * clear;
+            seen[0] += facing;
+            seen[1] += clear;
+            squares[0] += facing * facing;
+            squares[1] += clear * clear;
         }
+        pairs += weight * (seen[0] * seen[0] - squares[0]);
+        clear_pairs += weight * (seen[1] * seen[1] - squares[1]);
     }
     for (int j = 0; j < n && whole > 0; j++) {
         mean[j].depth /= whole;
-        mean[j].visibility /= whole;
+        mean[j].visibility /= fmax(mean[j].facing, 1e-300);
     }
+    return pairs > 0 ? clear_pairs / pairs : 0;
 }
 
 static void measure_directions(pps_cells_own *own, int threads) {
@@ -217,7 +230,7 @@ static void measure_directions(pps_cells_own *own, int threads) {
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
     for (size_t cell = 0; cell < c->n_cells; cell++) {
         along mean[MOST_DIRECTIONS];
-        measure_cell(own, cell, (int)n, c->directions.to, mean);
+        c->both_clear[cell] = measure_cell(own, cell, (int)n, c->directions.to, mean);
         for (size_t j = 0; j < n; j++) {
             c->depth[cell * n + j] = (float)mean[j].depth;
             c->visibility[cell * n + j] = (float)mean[j].visibility;
@@ -264,6 +277,7 @@ static pps_status reserve(pps_cells_own *own) {
     c->sun_clear = calloc(n, sizeof *c->sun_clear);
     c->depth = calloc(nj, sizeof *c->depth);
     c->visibility = calloc(nj, sizeof *c->visibility);
+    c->both_clear = calloc(n, sizeof *c->both_clear);
     own->point = malloc((own->n_points + 1) * sizeof *own->point);
     own->first = calloc(n + 2, sizeof *own->first);
     bool all = c->area && c->cell_of && c->n_leaves && c->n_points && c->sun_depth &&
@@ -333,5 +347,6 @@ void pps_cells_free(pps_cells *cells) {
     free(cells->sun_clear);
     free(cells->depth);
     free(cells->visibility);
+    free(cells->both_clear);
     free(own);
 }

@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double DEFAULT_BIN = 0.5;
-enum { DEFAULT_RAYS = 2000000 };
+enum { DEFAULT_RAYS = 2000000, DEFAULT_SAMPLES = 16 };
 static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category */
 
 /* ---- categories ---- */
@@ -21,7 +21,8 @@ static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category
 /* A leaf, as the averages see it. */
 typedef struct {
     long category;    /* depth and thickness in bins, packed */
-    double triangles; /* its weight */
+    double area;      /* its weight in averages */
+    double triangles; /* what it counts */
     bool turned;      /* its back is the face towards the light */
     size_t leaf;
 } member;
@@ -43,6 +44,7 @@ static void fill_member(const pps_scene *scene, const pps_cells *cells, double b
     size_t c = cells->cell_of[i];
     double d = cells->sun_depth[c], w = d + cells->sun_behind[c];
     *m = (member){.category = (long)floor(d / bin) * 100000 + (long)floor(w / bin),
+                  .area = at.area,
                   .triangles = mesh->leaf[at.leaf].n_triangles,
                   .turned = vec_dot(at.normal, axis) < 0,
                   .leaf = i};
@@ -68,7 +70,7 @@ static member *sort_leaves(const pps_scene *scene, const pps_cells *cells, doubl
 
 /* Sums over a category: of model and reference, [0] towards the light, [1] away. */
 typedef struct {
-    double triangles, model[2], truth[2];
+    double triangles, area, model[2], truth[2];
 } category;
 
 static void add_leaf(category *sum, const member *m, const pps_irradiance *model,
@@ -77,10 +79,11 @@ static void add_leaf(category *sum, const member *m, const pps_irradiance *model
     for (int k = 0; k < 2; k++) {
         double *out = k == 0 ? sum->model : sum->truth;
         double front = both[k]->front[at], back = both[k]->back[at];
-        out[0] += m->triangles * (m->turned ? back : front);
-        out[1] += m->triangles * (m->turned ? front : back);
+        out[0] += m->area * (m->turned ? back : front);
+        out[1] += m->area * (m->turned ? front : back);
     }
     sum->triangles += m->triangles;
+    sum->area += m->area;
 }
 
 /* Squared errors and squares of the reference, so far. */
@@ -92,8 +95,8 @@ typedef struct {
 static void add_category(squares *s, const category *c) {
     double n = c->triangles, model[2], truth[2];
     for (int f = 0; f < 2; f++) {
-        model[f] = c->model[f] / n;
-        truth[f] = c->truth[f] / n;
+        model[f] = c->area > 0 ? c->model[f] / c->area : 0;
+        truth[f] = c->area > 0 ? c->truth[f] / c->area : 0;
         s->faces[0] += n * pow(model[f] - truth[f], 2);
         s->faces[1] += n * pow(truth[f], 2);
     }
@@ -278,7 +281,7 @@ pps_status pps_experiment_run(const pps_experiment *e, size_t n,
     pps_cells *cells = NULL;
     pps_irradiance *truth = NULL;
     pps_cells_options options = {.across = e->across,
-                                 .samples = e->samples,
+                                 .samples = e->samples ? e->samples : DEFAULT_SAMPLES,
                                  .seed = e->seed,
                                  .threads = e->threads};
     pps_trace_options trace = {.rays = e->rays ? e->rays : DEFAULT_RAYS,

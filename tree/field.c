@@ -7,6 +7,7 @@
 
 #include <ppscat/tree/field.h>
 
+#include "tree/grid.h"
 #include "tree/light_model.h"
 #include "tree/vec.h"
 
@@ -230,32 +231,65 @@ typedef struct {
     double radiance[64][PPS_BANDS_MAX]; /* 4 pi/N times that of each direction */
 } direct_light;
 
-static void light_leaf(const pps_light_field *field, const pps_scene *scene,
-                       const pps_cells *cells, const direct_light *direct, size_t i,
-                       double *front, double *back) {
-    pps_scene_leaf leaf;
-    pps_scene_leaf_at(scene, i, &leaf);
-    size_t c = cells->cell_of[i], bands = (size_t)field->n_bands;
+/* The part of a leaf's light, `share` of the whole, that cell c gives it. */
+static void add_cell(const pps_light_field *field, const pps_scene *scene,
+                     const pps_cells *cells, const direct_light *direct,
+                     const double normal[3], size_t c, double share, double *front,
+                     double *back) {
+    size_t bands = (size_t)field->n_bands;
+    bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT);
     double sun = direct->sources & PPS_SUN
-                     ? vec_dot(leaf.normal, scene->sun.to) * (double)field->sun[c]
+                     ? vec_dot(normal, scene->sun.to) * (double)field->sun[c]
                      : 0;
     for (size_t b = 0; b < bands; b++) {
         const float *j = &field->flux[3 * (c * bands + b)];
         double even = (double)field->diffuse[c * bands + b] / 4;
-        double odd = (leaf.normal[0] * (double)j[0] + leaf.normal[1] * (double)j[1] +
-                      leaf.normal[2] * (double)j[2]) /
+        double odd = (normal[0] * (double)j[0] + normal[1] * (double)j[1] +
+                      normal[2] * (double)j[2]) /
                      2;
-        bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT);
-        front[b] = scene->sun.irradiance[b] * fmax(sun, 0) + lit * fmax(even + odd, 0);
-        back[b] = scene->sun.irradiance[b] * fmax(-sun, 0) + lit * fmax(even - odd, 0);
+        double e = scene->sun.irradiance[b];
+        front[b] += share * (e * fmax(sun, 0) + lit * fmax(even + odd, 0));
+        back[b] += share * (e * fmax(-sun, 0) + lit * fmax(even - odd, 0));
     }
     for (int d = 0; d < direct->n_directions; d++) {
         double through =
-            vec_dot(leaf.normal, cells->directions.to[d]) *
+            share * vec_dot(normal, cells->directions.to[d]) *
             (double)field->sky[c * (size_t)field->n_directions + (size_t)d];
         for (size_t b = 0; b < bands; b++) {
             front[b] += fmax(through, 0) * direct->radiance[d][b];
             back[b] += fmax(-through, 0) * direct->radiance[d][b];
+        }
+    }
+}
+
+/* A leaf may reach through several cells: each of its triangles is lit in four places, the
+ * centres of its quarters. Small leaves have all of them in one cell. */
+static void light_leaf(const pps_light_field *field, const pps_scene *scene,
+                       const pps_cells *cells, const direct_light *direct, size_t i,
+                       double *front, double *back) {
+    static const double quarter[4][2] = {
+        {1 / 6.0, 1 / 6.0}, {4 / 6.0, 1 / 6.0}, {1 / 6.0, 4 / 6.0}, {2 / 6.0, 2 / 6.0}};
+    pps_scene_leaf at;
+    pps_scene_leaf_at(scene, i, &at);
+    const pps_instance *instance = &scene->instance[at.instance];
+    const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
+    const pps_leaf *leaf = &mesh->leaf[at.leaf];
+    for (size_t t = leaf->first; t < leaf->first + leaf->n_triangles; t++) {
+        double corner[3][3], a[3], b[3];
+        for (int k = 0; k < 3; k++) {
+            pps_instance_point(instance, mesh->position[mesh->triangle[t][k]],
+                               corner[k]);
+        }
+        vec_sub(corner[1], corner[0], a);
+        vec_sub(corner[2], corner[0], b);
+        for (int k = 0; k < 4; k++) {
+            double point[3];
+            vec_along(corner[0], quarter[k][0], a, point);
+            vec_along(point, quarter[k][1], b, point);
+            long c = pps_grid_cell(cells, point);
+            size_t cell = c >= 0 && cells->area[c] > 0 ? (size_t)c : cells->cell_of[i];
+            add_cell(field, scene, cells, direct, at.normal, cell,
+                     0.25 / leaf->n_triangles, front, back);
         }
     }
 }

@@ -12,7 +12,7 @@
  * of its E, which turns the sign of K = 1/mu - 1 in
  *   G_s = (1 - e^(-K y)) / (1 - e^(-K d)),  y = d - h mu the depth of the surface;
  * it is finite in the upper half sphere only. Its ends are right, its shape is not
- * (tests/tree/test_gfactor.c). Reference: docs/theory.md section 8.
+ * (tests/tree/test_gfactor.c). Reference: docs/theory.md section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/gfactor.h"

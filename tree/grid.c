@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/grid.h"
 
+#include <math.h>
+
 #include <omp.h>
 
 int pps_thread_count(int threads) {
@@ -50,4 +52,20 @@ void pps_grid_smooth(const pps_cells *cells, const double *in, double *out) {
             }
         }
     }
+}
+
+long pps_grid_cell(const pps_cells *cells, const double at[3]) {
+    long c = 0;
+    for (int axis = 2; axis >= 0; axis--) {
+        double n = cells->n[axis],
+               k = floor((at[axis] - cells->low[axis]) / cells->size);
+        if (cells->periodic && axis < 2) {
+            k -= n * floor(k / n);
+        }
+        if (!(k >= 0 && k < n)) {
+            return -1;
+        }
+        c = c * cells->n[axis] + (long)k;
+    }
+    return c;
 }

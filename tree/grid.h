@@ -10,6 +10,9 @@
  * others. in and out differ; a periodic grid wraps along x and y. */
 void pps_grid_smooth(const pps_cells *cells, const double *in, double *out);
 
+/* The cell of a point; -1 outside, but for the axes that repeat. */
+long pps_grid_cell(const pps_cells *cells, const double at[3]);
+
 /* 0 is all cores. */
 int pps_thread_count(int threads);
 

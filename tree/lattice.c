@@ -24,14 +24,17 @@ enum { SWEEPS_MAX = 200, DARK_SWEEPS_MAX = 60, PARALLEL_CELLS = 1500 };
 struct pps_lattice {
     size_t n_cells, n_leaf_cells, n_columns;
     int n_directions, threads;
-    bool ground;
-    double gap, kappa_given;
+    bool ground, isotropic;
+    double gap, kappa_given, excess[PPS_BANDS_MAX];
     uint32_t *leaf_cell;
-    float *depth;                /* per cell: sigma times side */
-    float *kappa;                /* per leaf cell: escape factor */
-    pps_bands *albedo, *direct;  /* per leaf cell */
-    pps_bands *source;           /* per cell */
-    pps_bands *sum[2], *flux[2]; /* per cell, downward and upward half */
+    float *leaf_depth;          /* per leaf cell: of its leaves alone */
+    float *depth;               /* per cell: sigma times side */
+    float *kappa;               /* per leaf cell: escape factor */
+    pps_bands *albedo, *direct; /* per leaf cell */
+    pps_bands *source, *beam;   /* per cell: scattered evenly, and of the sun alone */
+    pps_bands
+        phase[PPS_SWEEP_DIRECTIONS_MAX]; /* of the sun's first scattering, less 1 */
+    pps_bands *sum[2], *flux[2];         /* per cell, downward and upward half */
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
     size_t n_state;
     pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
@@ -55,6 +58,7 @@ void pps_lattice_free(pps_lattice *l) {
         free(l->leaf_cell);
         free(l->depth);
         free(l->kappa);
+        free(l->leaf_depth);
         free(l->state);
         free(l->weight);
         free(l->albedo);
@@ -69,6 +73,8 @@ bool pps_lattice_fits(const pps_lattice *l, const pps_lit_scene *lit) {
     return l->kappa_given == lit->options.kappa && l->ground == ground->present &&
            l->gap == gap_below(lit->scene, lit->cells);
 }
+
+void pps_lattice_set_isotropic(pps_lattice *l) { l->isotropic = true; }
 
 void pps_lattice_forget(pps_lattice *l) {
     memset(l->state, 0, l->n_state * sizeof *l->state);
@@ -132,11 +138,12 @@ static pps_status allocate(pps_lattice *l) {
     l->depth = calloc(n + 1, sizeof *l->depth);
     l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
     l->kappa = malloc((m + 1) * sizeof *l->kappa);
+    l->leaf_depth = malloc((m + 1) * sizeof *l->leaf_depth);
     l->albedo = bands_array(2 * m);
-    l->source = bands_array(9 * n + 3 * l->n_columns);
+    l->source = bands_array(10 * n + 3 * l->n_columns);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
-    if (!l->depth || !l->leaf_cell || !l->kappa || !l->albedo || !l->source ||
-        !l->sky_below) {
+    if (!l->depth || !l->leaf_cell || !l->kappa || !l->leaf_depth || !l->albedo ||
+        !l->source || !l->sky_below) {
         return PPS_ERR_MEMORY;
     }
     l->direct = l->albedo + m;
@@ -144,7 +151,8 @@ static pps_status allocate(pps_lattice *l) {
         l->sum[h] = l->source + (1 + h) * n;
         l->flux[h] = l->source + (3 + 3 * h) * n;
     }
-    l->fall = l->source + 9 * n;
+    l->beam = l->source + 9 * n;
+    l->fall = l->beam + n;
     l->ground_direct = l->fall + l->n_columns;
     l->ground_light = l->ground_direct + l->n_columns;
     return PPS_OK;
@@ -163,7 +171,7 @@ static pps_status make_state(pps_lattice *l) {
     }
     l->image = l->state + l->n_state;
     for (size_t i = 0; i < n; i++) {
-        l->weight[i] = l->depth[l->leaf_cell[i]];
+        l->weight[i] = l->leaf_depth[i];
     }
     return pps_anderson_init(&l->anderson, l->n_state, n);
 }
@@ -178,7 +186,8 @@ static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
             continue;
         }
         l->leaf_cell[i] = (uint32_t)c;
-        l->depth[c] = (float)(cells->area[c] / face);
+        l->leaf_depth[i] = (float)(cells->area[c] / face);
+        l->depth[c] += l->leaf_depth[i];
         for (int b = 0; b < scene->n_bands; b++) {
             l->albedo[i][b] = albedo[c * (size_t)scene->n_bands + (size_t)b];
         }
@@ -199,6 +208,21 @@ static void note_sky_below(pps_lattice *l, const pps_sweeper *sweeper) {
     }
 }
 
+/* The share of a cell's scattered light that meets nothing: the mean visibility, more where
+ * those leaves that light reaches are those it leaves from again. */
+static double escape_seen(const pps_cells *cells, size_t c) {
+    int n = cells->directions.n;
+    double sum = 0, squares = 0;
+    for (int j = 0; j < n; j++) {
+        double v = (double)cells->visibility[c * (size_t)n + (size_t)j];
+        sum += v;
+        squares += v * v;
+    }
+    double unrelated = (sum * sum - squares) / (n * (n - 1.0));
+    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1;
+    return fmin(sum / n * related, 1);
+}
+
 /* kappa = (1 - mean visibility at leaves) / (1 - escape on the lattice), each a mean over
  * 3^3 cells: leaves that cluster below a cell catch more of their own light. */
 static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given) {
@@ -208,15 +232,10 @@ static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given
     }
     double *caught = kept + l->n_cells, *mean_kept = caught + l->n_cells,
            *mean_caught = mean_kept + l->n_cells;
-    int n = l->n_directions;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        double seen = 0;
-        for (int j = 0; j < n; j++) {
-            seen += (double)cells->visibility[c * (size_t)n + (size_t)j];
-        }
         kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
-        caught[c] = 1 - seen / n;
+        caught[c] = 1 - escape_seen(cells, c);
     }
     pps_grid_smooth(cells, kept, mean_kept);
     pps_grid_smooth(cells, caught, mean_caught);
@@ -236,9 +255,18 @@ static pps_status measure_escape(pps_lattice *l, const pps_cells *cells, double 
     double weight[PPS_SWEEP_DIRECTIONS_MAX];
     pps_sweeper sweeper = {0};
     pps_bands one = pps_bands_all(1);
-    pps_sweep half[2] = {
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[1]}};
+    pps_sweep half[2] = {{.source = l->source,
+                          .beam = l->beam,
+                          .phase = l->phase,
+                          .top = one,
+                          .side = one,
+                          .sum = l->sum[0]},
+                         {.source = l->source,
+                          .beam = l->beam,
+                          .phase = l->phase,
+                          .top = one,
+                          .side = one,
+                          .sum = l->sum[1]}};
     for (int j = 0; j < l->n_directions; j++) {
         weight[j] = 1.0 / l->n_directions;
     }
@@ -259,6 +287,68 @@ static pps_status plan_sweeps(pps_lattice *l, const pps_cells *cells) {
     pps_ordinates(to, weight);
     return pps_sweeper_init(&l->sweeper, cells->n, cells->periodic, l->depth,
                             PPS_ORDINATES, (const double(*)[3])to, weight, l->gap);
+}
+
+/* Wood is black and closed: a ray meets a quarter of its surface. Triangles larger than
+ * half a cell are split. */
+static void add_wood(pps_lattice *l, const pps_cells *cells,
+                     const double corner[3][3]) {
+    double a[3], b[3], cross[3], edge = 0;
+    vec_sub(corner[1], corner[0], a);
+    vec_sub(corner[2], corner[0], b);
+    vec_cross(a, b, cross);
+    edge = fmax(vec_length(a), vec_length(b));
+    int n = (int)fmin(fmax(ceil(2 * edge / cells->size), 1), 64);
+    float part =
+        (float)(vec_length(cross) / 2 / (n * n) / (4 * cells->size * cells->size));
+    for (int i = 0; i < n * n; i++) { /* row r has 2 r + 1 small triangles */
+        int r = (int)sqrt(i + 0.5), k = i - r * r;
+        double u = (r + (k % 2 ? 1 : 2) / 3.0) / n,
+               v = (k / 2 + (k % 2 ? 2 : 1) / 3.0) / n;
+        double at[3];
+        vec_along(corner[0], u - v, a, at);
+        vec_along(at, v, b, at);
+        long c = pps_grid_cell(cells, at);
+        if (c >= 0) {
+            l->depth[c] += part;
+        }
+    }
+}
+
+static void set_wood(pps_lattice *l, const pps_scene *scene, const pps_cells *cells) {
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_instance *instance = &scene->instance[k];
+        const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
+        for (size_t t = 0; t < mesh->n_triangles; t++) {
+            double corner[3][3];
+            for (int i = 0; i < 3; i++) {
+                pps_instance_point(instance, mesh->position[mesh->triangle[t][i]],
+                                   corner[i]);
+            }
+            if (mesh->leaf_of[t] == PPS_NO_LEAF) {
+                add_wood(l, cells, (const double(*)[3])corner);
+            }
+        }
+    }
+}
+
+/* (rho - tau) / (rho + tau) of the scene's leaves, by area. */
+static double reflected_excess(const pps_scene *scene, int band) {
+    double excess = 0, sum = 0;
+    for (size_t k = 0; k < scene->n_instances; k++) {
+        const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
+        const pps_leaf_optics *o = &p->optics;
+        double area = 0, square = pow(scene->instance[k].scale, 2);
+        for (size_t i = 0; i < p->mesh->n_leaves; i++) {
+            area += square * p->mesh->leaf[i].area;
+        }
+        for (int face = 0; face < 2; face++) {
+            double r = o->reflectance[face][band], t = o->transmittance[face][band];
+            excess += area * (r - t);
+            sum += area * (r + t);
+        }
+    }
+    return sum > 0 ? excess / sum : 0;
 }
 
 static void count_cells(pps_lattice *l, const pps_scene *scene,
@@ -282,12 +372,16 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     }
     count_cells(l, scene, cells);
     l->kappa_given = kappa;
+    for (int b = 0; b < scene->n_bands; b++) {
+        l->excess[b] = reflected_excess(scene, b);
+    }
     l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
     pps_status status = allocate(l);
     if (!status) {
         status = plan_sweeps(l, cells);
     }
     if (!status) {
+        set_wood(l, scene, cells);
         status = set_leaf_cells(l, scene, cells);
     }
     if (!status) {
@@ -306,6 +400,25 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
 
 /* ---- the light ---- */
 
+/* Leaves of random orientation that scatter by Lambert's law have the phase function
+ *     1 - 4/3 (rho - tau)/(rho + tau) cos + 5/16 P2(cos) + ..
+ * (its moments are those of the leaf's |n.s|, squared). It counts where light has one
+ * direction: the first time the sun's is scattered. */
+static void set_phase(pps_lattice *l, const pps_scene *scene) {
+    double to[PPS_ORDINATES][3], weight[PPS_ORDINATES];
+    pps_ordinates(to, weight);
+    pps_bands odd = {0};
+    for (int b = 0; b < scene->n_bands; b++) {
+        odd[b] = (float)(-4.0 / 3 * l->excess[b]);
+    }
+    double even = l->isotropic ? 0 : 5.0 / 32;
+    for (int j = 0; j < PPS_ORDINATES; j++) {
+        double mu = vec_dot(to[j], scene->sun.to);
+        l->phase[j] = (float)(l->isotropic ? 0 : mu) * odd +
+                      pps_bands_all((float)(even * (3 * mu * mu - 1)));
+    }
+}
+
 /* Fluence of sun and sky at the leaves, by measured visibilities. */
 static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     const pps_scene *scene = lit->scene;
@@ -320,10 +433,12 @@ static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
                 (float)(4 * PI / l->n_directions * pps_sky_part(scene, cells, j, b));
         }
     }
+    set_phase(l, scene);
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         const float *seen = &cells->visibility[c * (size_t)l->n_directions];
         l->direct[i] = (float)cells->sun_visibility[c] * e;
+        l->beam[c] = l->leaf_depth[i] * l->albedo[i] * l->direct[i];
         for (int j = 0; sky && j < l->n_directions; j++) {
             l->direct[i] += seen[j] * part[j];
         }
@@ -344,8 +459,13 @@ static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *cle
     pps_bands one = pps_bands_all(1);
     memset(l->source, 0, l->n_cells * sizeof(pps_bands));
     pps_sweep half[2] = {
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .sum = l->sum[1]}};
+        {.source = l->source,
+         .beam = l->source,
+         .phase = l->phase,
+         .top = one,
+         .side = one,
+         .sum = l->sum[0]},
+        {.source = l->source, .beam = l->source, .phase = l->phase, .sum = l->sum[1]}};
     sweep_dark(l, &sweeper, half);
     pps_sweep_clear(&sweeper, &sweeper.group[0], 0, clear);
     pps_sweeper_clear(&sweeper);
@@ -393,7 +513,7 @@ static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
 static void set_source(pps_lattice *l) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        l->source[c] = l->depth[c] * l->albedo[i] * (l->direct[i] + l->state[i]);
+        l->source[c] = l->leaf_depth[i] * l->albedo[i] * (l->direct[i] + l->state[i]);
     }
 }
 
@@ -409,8 +529,9 @@ static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
  * the sweeper, and l->fall. */
 static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands far,
                        bool flux) {
-    pps_sweep half[2] = {{.source = l->source, .sum = l->sum[0]},
-                         {.source = l->source, .sum = l->sum[1]}};
+    pps_sweep half[2] = {
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[0]},
+        {.source = l->source, .beam = l->beam, .phase = l->phase, .sum = l->sum[1]}};
     const pps_bands *sides = l->state + l->n_leaf_cells;
     size_t n_sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
     memcpy(l->sweeper.faces, sides, n_sides * sizeof *sides);

@@ -5,7 +5,7 @@
  *
  * with sigma = one-sided leaf area / (2 volume), the measured mean visibility for the
  * direct light of sun and sky, and nothing diffuse from outside but what a Lambertian
- * ground sends back. Reference: docs/theory.md section 8.
+ * ground sends back. Reference: docs/theory.md section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPS_TREE_LATTICE_H
@@ -31,6 +31,9 @@ pps_status pps_lattice_solve(pps_lattice *lattice, const pps_lit_scene *lit,
 
 /* Start the next solve from no light. */
 void pps_lattice_forget(pps_lattice *lattice);
+
+/* Scatter the sun's light evenly from now on, as the slab library does at g = 0. */
+void pps_lattice_set_isotropic(pps_lattice *lattice);
 
 /* The escape factor of a cell. */
 double pps_lattice_kappa(const pps_lattice *lattice, size_t c);

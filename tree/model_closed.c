@@ -4,12 +4,12 @@
  *   ss              direct light alone
  *   spp, ...        the slab's scattered light, times the G-factor where asked for
  *   march-g         phi = e^-d + albedo mean_j int_0^h_j [e^-z + G phi_d(z)] e^-s ds
- *   self-consistent phi = e^-d + r phi_d, with the r that marching this very source gives
- *                   back: r = m_d / (phi_d - m_s), m_d and m_s the marched direct and
- *                   scattered light. A quotient of differences: bounded, and smoothed
- *                   over 3^3 cells.
+ *   self-consistent phi = e^-d + m_d + r m_s, m_d and m_s the marched direct and slab's
+ *                   scattered light, with the r that makes r phi_d of it again:
+ *                   r = m_d / (phi_d - m_s). A quotient of differences: bounded, and each
+ *                   of its two parts a mean over 3^3 cells.
  *
- * The sky is 22 suns. Ground: black. Reference: docs/theory.md section 8.
+ * The sky is 22 suns. Ground: black. Reference: docs/theory.md section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
@@ -35,10 +35,10 @@ typedef struct {
     double mu[DIRECTIONS_MAX], h[DIRECTIONS_MAX];
 } place;
 
-/* Scattered fluence phi and net flux, for unit irradiance; self-consistent: with the
- * ratio, of the direct part and (times the ratio) the scattered part. */
+/* Scattered fluence phi and net flux, for unit irradiance. Self-consistent: to phi and flux
+ * come more_phi and more_flux, times the ratio over/under. */
 typedef struct {
-    double phi, ratio, flux[3], per_ratio[3];
+    double phi, flux[3], over, under, more_phi, more_flux[3];
 } scattered;
 
 typedef scattered (*closed_form)(const place *at);
@@ -84,10 +84,10 @@ static scattered consistent(const place *at) {
     pps_slab_light_init(&light, at->closure, at->albedo, at->w);
     march(at, &light, phi, flux);
     double slab = pps_slab_light_sum(&light, at->d);
-    double rest = fmax(slab - phi[1], SLIGHT * phi[0]);
-    scattered s = {.phi = slab, .ratio = rest > 0 ? fmin(phi[0] / rest, RATIO_MAX) : 0};
+    scattered s = {
+        .phi = phi[0], .over = phi[0], .under = slab - phi[1], .more_phi = phi[1]};
     memcpy(s.flux, flux[0], sizeof s.flux);
-    memcpy(s.per_ratio, flux[1], sizeof s.per_ratio);
+    memcpy(s.more_flux, flux[1], sizeof s.more_flux);
     return s;
 }
 
@@ -142,25 +142,34 @@ static void light_cells(const pps_lit_scene *lit, const closed_model *model,
     }
 }
 
-/* With the smoothed ratio, what `consistent` left apart becomes phi and flux. */
+static double ratio_of(double over, double under) {
+    double least = fmax(under, SLIGHT * over);
+    return least > 0 ? fmin(over / least, RATIO_MAX) : 0;
+}
+
+/* With the smoothed ratio, what `consistent` left apart comes to phi and flux. */
 static pps_status apply_ratio(const pps_cells *cells, size_t bands, scattered *s) {
-    double *ratio = malloc((2 * cells->n_cells + 1) * sizeof *ratio);
-    if (!ratio) {
+    size_t n = cells->n_cells;
+    double *over = malloc((4 * n + 1) * sizeof *over);
+    if (!over) {
         return PPS_ERR_MEMORY;
     }
-    double *mean = ratio + cells->n_cells;
+    double *under = over + n, *mean_over = under + n, *mean_under = mean_over + n;
     for (size_t b = 0; b < bands; b++) {
-        for (size_t c = 0; c < cells->n_cells; c++) {
-            ratio[c] = s[c * bands + b].ratio;
+        for (size_t c = 0; c < n; c++) {
+            over[c] = s[c * bands + b].over;
+            under[c] = s[c * bands + b].under;
         }
-        pps_grid_smooth(cells, ratio, mean);
-        for (size_t c = 0; c < cells->n_cells; c++) {
+        pps_grid_smooth(cells, over, mean_over);
+        pps_grid_smooth(cells, under, mean_under);
+        for (size_t c = 0; c < n; c++) {
             scattered *at = &s[c * bands + b];
-            at->phi *= mean[c];
-            vec_along(at->flux, mean[c], at->per_ratio, at->flux);
+            double ratio = ratio_of(mean_over[c], mean_under[c]);
+            at->phi += ratio * at->more_phi;
+            vec_along(at->flux, ratio, at->more_flux, at->flux);
         }
     }
-    free(ratio);
+    free(over);
     return PPS_OK;
 }
 
@@ -238,7 +247,7 @@ static pps_status solve_consistent(const pps_lit_scene *lit, pps_light_field *fi
 }
 
 #define PAPER "SPP (2013)"
-#define OURS "docs/theory.md section 8"
+#define OURS "docs/theory.md section 9"
 #define ROW(id, text, says, from, counted, g, function)                                \
     static const struct pps_light_model_ops ops_##id = {.counts = (counted),           \
                                                         .solve = function};            \

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/lattice.h"
 
-static const double TOLERANCE =
-    1e-3; /* of phi_d, by extinction; leaves are worse known */
+/* Of phi_d, weighted by extinction; the cells are known worse. */
+static const double TOLERANCE = 1e-3;
 
 static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
     if (field->state && !pps_lattice_fits(field->state, lit)) {
@@ -23,16 +23,18 @@ static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
     return pps_lattice_solve(field->state, lit, TOLERANCE, field);
 }
 
+static void forget(void *state) { pps_lattice_forget(state); }
+
 static void free_state(void *state) { pps_lattice_free(state); }
 
-static const struct pps_light_model_ops ops = {.solve = solve,
-                                               .free_state = free_state};
+static const struct pps_light_model_ops ops = {
+    .solve = solve, .forget = forget, .free_state = free_state};
 
 const pps_light_model pps_light_lattice = {
     .name = "lattice",
     .summary =
         "discrete ordinates on the crown's own cells; the only one with a ground",
-    .source = "docs/theory.md section 8",
+    .source = "docs/theory.md section 9",
     .sources = PPS_ALL_LIGHT,
     .ops = &ops,
 };

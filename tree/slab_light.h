@@ -11,7 +11,7 @@
  *
  * m = 1 is the simplified plane-parallel model (SPP Eqs. 11, 12, 19), kappa times it the
  * printed Eq. 20 (kappa = 1/T = 2); m = 2, the mean cosine 1/2 of a uniform hemisphere,
- * is the hemispheric closure. Reference: docs/theory.md section 8.
+ * is the hemispheric closure. Reference: docs/theory.md section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPS_TREE_SLAB_LIGHT_H

@@ -184,23 +184,25 @@ __attribute__((always_inline)) static inline void
 sweep_row(const int n, const pps_sweeper *s, const pps_sweep_group *g,
           const pps_sweep *sweep, const row *r, long x, pps_bands *restrict x_face,
           pps_bands *restrict y_face, pps_bands *restrict z_face, const bool flux) {
-    pps_bands in_x[W];
+    pps_bands in_x[W], phase[W];
     float sum_twice[W];
 #pragma GCC unroll 4
     for (int d = 0; d < n; d++) {
         in_x[d] = x_face[d];
+        phase[d] = sweep->phase[g->direction[d]];
         sum_twice[d] = g->twice[0][d] + g->twice[1][d] + g->twice[2][d];
     }
     long c = r->first;
     for (long i = 0; i < r->n; i++, c += r->step, x += r->step) {
         float depth = s->depth[c];
-        pps_bands source = sweep->source[c], total = pps_bands_all(0);
+        pps_bands source = sweep->source[c], beam = sweep->beam[c], total = {0};
         pps_bands net[3] = {total, total, total};
         pps_bands *in_y = y_face + x * n, *in_z = z_face + x * n;
 #pragma GCC unroll 4
         for (int d = 0; d < n; d++) {
             float inverse = 1 / (depth + sum_twice[d]);
-            pps_bands in = source + g->twice[1][d] * in_y[d] + g->twice[2][d] * in_z[d];
+            pps_bands in = source + phase[d] * beam + g->twice[1][d] * in_y[d] +
+                           g->twice[2][d] * in_z[d];
             pps_bands intensity = inverse * (in + g->twice[0][d] * in_x[d]);
             pps_bands twice = intensity + intensity;
             in_x[d] = pps_bands_at_least_0(twice - in_x[d]);

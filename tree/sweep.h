@@ -52,7 +52,9 @@ void pps_sweeper_clear(pps_sweeper *sweeper);
 
 /* What one half of the directions, downward or upward, carries. */
 typedef struct pps_sweep {
-    const pps_bands *source; /* per cell: depth times what is scattered */
+    const pps_bands *source; /* per cell: depth times what is scattered evenly */
+    const pps_bands *beam;   /* per cell: more of it, times `phase` */
+    const pps_bands *phase;  /* per direction, by its number */
     pps_bands top, side;     /* enters there (side: open grids) */
     const pps_bands *ground; /* per column, enters from below; NULL: `side` */
     pps_bands *sum;          /* per cell: + mean of I_j */

@@ -32,8 +32,9 @@ typedef struct pps_cells_options {
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
- * Means over points on the cell's leaves, by area, without the triangle that a point is
- * on. Where area is 0 there are none: depths and visibilities are 0 and mean nothing.
+ * Means over points on the cell's leaves, without the triangle that a point is on: depths
+ * by leaf area, visibilities by the area that leaves turn that way, as light falls on
+ * them. Where area is 0 there are none: depths and visibilities are 0 and mean nothing.
  * Depths count branches as leaves, one for all a ray meets; visibilities are 0 behind one.
  * A leaf's points may lie in several cells; cell_of has the most of them. */
 typedef struct pps_cells {
@@ -45,14 +46,17 @@ typedef struct pps_cells {
     double *area;       /* one-sided alpha-weighted leaf area, m^2 */
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
-    uint32_t
-        *n_points; /* per cell: points that depths and visibilities are means over */
+    uint32_t *n_points; /* per cell: points that the means are over */
     /* Towards the sun and on along its light: mean counts n+ and n- of leaves crossed
      * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
      * the way on (sun_clear, "nothing behind"). */
     double *sun_depth, *sun_behind, *sun_visibility, *sun_clear;
     /* The same towards every direction. */
     float *depth, *visibility;
+    /* Mean over pairs of directions of both being clear from the same point: above the
+     * product of their visibilities where some leaves of a cell are open and others
+     * hidden. */
+    double *both_clear;
 } pps_cells;
 
 /* Build the static part: the grid, leaf areas, and depths and visibilities towards the

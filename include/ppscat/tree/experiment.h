@@ -1,10 +1,10 @@
 /* How well light models light a crown: Experiment 2 of the SPP paper (Table 3), and what
  * goes beyond it.
  *
- * The irradiance of leaves, both faces together, is averaged over categories of depth and
- * thickness, floor(d/bin) and floor(w/bin) with the mean counts d = n+, w = n+ + n- of the
- * leaf's cell (SPP Eqs. 29, 30), and compared with the same averages of a Monte Carlo
- * answer. Absolute, nothing fitted.
+ * The irradiance of leaves, both faces together, is averaged by area over categories of
+ * depth and thickness, floor(d/bin) and floor(w/bin) with the mean counts d = n+,
+ * w = n+ + n- of the leaf's cell (SPP Eqs. 29, 30), and compared with the same averages of
+ * a Monte Carlo answer. Absolute, nothing fitted.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_TREE_EXPERIMENT_H
@@ -56,7 +56,7 @@ typedef struct pps_experiment {
     bool sky;      /* lit by a sky, horizon .5 and zenith 1, instead of the sun */
     int n_bands;
     double albedo[PPS_BANDS_MAX];
-    int across, samples; /* of the cells; 0: 16, 4 */
+    int across, samples; /* of the cells; 0: 16, 16 */
     double bin;          /* 0: 0.5 */
     uint64_t rays;       /* Monte Carlo; 0: 2000000 */
     uint64_t seed;       /* of rays and of points on leaves */
