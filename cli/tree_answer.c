@@ -181,15 +181,16 @@ static pps_status need_cells(tree_work *work) {
 static pps_status run_model(tree_work *work, const pps_light_model *model,
                             unsigned sources, tree_answer *out) {
     pps_light_options options = work->settings->light;
-    pps_status status = model->per_leaf ? PPS_OK : need_cells(work);
+    pps_status status = model->without_cells ? PPS_OK : need_cells(work);
 
     options.sources = sources;
     if (!model->compensates)
         options.compensate = PPS_COMPENSATE_NONE;
     if (status)
         return status;
-    if (model->per_leaf)
-        return pps_light_model_run(model, work->scene, NULL, &options, &out->light);
+    if (model->without_field)
+        return pps_light_model_run(model, work->scene, work->cells, &options,
+                                   &out->light);
     status =
         pps_light_field_solve(model, work->scene, work->cells, &options, &out->field);
     return status ? status

@@ -25,6 +25,7 @@ const pps_light_model pps_light_leaf = {
     .summary = "eight attenuations a leaf: sky, sun, and the sun by way of one leaf",
     .source = "Boulanger et al. 2008",
     .sources = PPS_SUN | PPS_SUN_INDIRECT | PPS_SKY,
-    .per_leaf = true,
+    .without_cells = true,
+    .without_field = true,
     .ops = &ops,
 };

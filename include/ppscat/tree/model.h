@@ -29,9 +29,10 @@ typedef struct pps_light_options {
 
 typedef struct pps_light_model {
     const char *name, *summary, *source;
-    unsigned sources; /* pps_light_source that it has */
-    bool compensates; /* takes the G-factor */
-    bool per_leaf;    /* needs no cells */
+    unsigned sources;   /* pps_light_source that it has */
+    bool compensates;   /* takes the G-factor */
+    bool without_cells; /* needs none: cells may be NULL */
+    bool without_field; /* lights leaves, not cells: no pps_light_field */
     const struct pps_light_model_ops *ops;
 } pps_light_model;
 
