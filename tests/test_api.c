@@ -2,6 +2,7 @@
  * threads, silence.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "support/allocation.h"
 #include "support/support.h"
 
 #include <math.h>
@@ -20,30 +21,7 @@ static const double taus[] = {0, 0.5, 1}, mus[] = {0.7, -0.2, 1}, phis[] = {0, 7
 static const pps_grid grid = {3, 3, 2, taus, mus, phis};
 enum { N_RADIANCES = 3 * 3 * 2 };
 
-/* ---- allocation: linked with --wrap, so that the library's calls come here ---- */
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-
-static long allocations_left = -1; /* -1: without end, and only read, by any thread */
-
-static bool allowed(void) {
-    if (allocations_left == 0) {
-        return false;
-    }
-    if (allocations_left > 0) {
-        allocations_left--;
-    }
-    return true;
-}
-
-void *__wrap_malloc(size_t size) { return allowed() ? __real_malloc(size) : NULL; }
-
-void *__wrap_calloc(size_t n, size_t size) {
-    return allowed() ? __real_calloc(n, size) : NULL;
-}
+/* ---- allocation ---- */
 
 /* A test that fails half-way leaves enough for those after it. */
 static int restore_allocation(void **state) {

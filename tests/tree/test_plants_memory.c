@@ -10,35 +10,8 @@
 #include <ppscat/tree/picture.h>
 
 #include "plants.h"
+#include "support/allocation.h"
 #include "support/support.h"
-
-/* Linked with --wrap, so that the library's calls come here. */
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-static long allocations_left = -1; /* -1: without end */
-
-static bool allowed(void) {
-    if (allocations_left > 0) {
-        allocations_left--;
-        return true;
-    }
-    return allocations_left < 0;
-}
-
-void *__wrap_malloc(size_t size) { return allowed() ? __real_malloc(size) : NULL; }
-
-void *__wrap_calloc(size_t n, size_t size) {
-    return allowed() ? __real_calloc(n, size) : NULL;
-}
-
-void *__wrap_realloc(void *old, size_t size) {
-    return allowed() ? __real_realloc(old, size) : NULL;
-}
 
 static int restore_allocation(void **state) {
     (void)state;

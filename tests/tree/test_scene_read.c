@@ -10,6 +10,7 @@
 #include <ppscat/tree/scene.h>
 
 #include "files.h"
+#include "support/allocation.h"
 #include "support/support.h"
 
 static const double PI = 3.14159265358979323846;
@@ -514,27 +515,6 @@ static void damaged_scenes_do_no_harm(void **state) {
         text[at] = kept;
     }
     assert_in_range(read, 100, 2000);
-}
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-
-static long allocations_left = -1; /* -1: without end */
-
-static bool allowed(void) {
-    if (allocations_left > 0) {
-        allocations_left--;
-        return true;
-    }
-    return allocations_left < 0;
-}
-
-void *__wrap_malloc(size_t size) { return allowed() ? __real_malloc(size) : NULL; }
-
-void *__wrap_calloc(size_t n, size_t size) {
-    return allowed() ? __real_calloc(n, size) : NULL;
 }
 
 /* But Jansson's own: it takes those for mistakes in the file. */

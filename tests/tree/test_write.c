@@ -11,6 +11,7 @@
 #include <ppscat/tree/grow.h>
 
 #include "files.h"
+#include "support/allocation.h"
 #include "support/support.h"
 
 static pps_problem problem;
@@ -212,28 +213,7 @@ static void a_full_disk_is_told(void **state) {
     pps_mesh_free(mesh);
 }
 
-/* ---- allocation: linked with --wrap, so that the library's calls come here ---- */
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-
-static long allocations_left = -1; /* -1: without end */
-
-static bool allowed(void) {
-    if (allocations_left > 0) {
-        allocations_left--;
-        return true;
-    }
-    return allocations_left < 0;
-}
-
-void *__wrap_malloc(size_t size) { return allowed() ? __real_malloc(size) : NULL; }
-
-void *__wrap_calloc(size_t n, size_t size) {
-    return allowed() ? __real_calloc(n, size) : NULL;
-}
+/* ---- allocation ---- */
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
