@@ -15,6 +15,8 @@
 static const double PI = 3.14159265358979323846;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
+static const double TIP_WEIGHT = 2;
+
 /* Events of the leaves' random numbers; the skeleton's items are above 2^40. */
 enum { SITE = 1 << 8, FRAME = 2 << 8, TILT = 3 << 8 };
 
@@ -49,7 +51,8 @@ static void place(const blade *leaf, double size, const double own[3], double ou
 
 /* ---- sites ---- */
 
-/* How much of the wood up to each node bears leaves, metres. */
+/* How much of the wood up to each node bears leaves, metres; the last stretch of a twig
+ * bears more of them. */
 static double *leafy_lengths(const pps_species *s, const pps_skeleton *skeleton) {
     double *sum = malloc((skeleton->n + 1) * sizeof *sum), total = 0;
     for (size_t k = 0; sum && k < skeleton->n; k++) {
@@ -57,7 +60,7 @@ static double *leafy_lengths(const pps_species *s, const pps_skeleton *skeleton)
         if (node->parent != PPS_NO_NODE && node->radius < s->leaves.wood_below) {
             double along[3];
             vec_sub(node->at, skeleton->node[node->parent].at, along);
-            total += vec_length(along);
+            total += (node->n_children == 0 ? TIP_WEIGHT : 1) * vec_length(along);
         }
         sum[k] = total;
     }
@@ -91,7 +94,7 @@ static site pick_site(uint64_t seed, const pps_skeleton *skeleton, const double 
     const pps_node *node = &skeleton->node[k];
     site s = {.radius = node->radius};
     vec_sub(node->at, skeleton->node[node->parent].at, s.along);
-    double back = (sum[k] - where) / vec_length(s.along);
+    double back = (sum[k] - where) / (sum[k] - (k ? sum[k - 1] : 0));
     vec_along(node->at, -back, s.along, s.at);
     vec_normalize(s.along);
     return s;

@@ -17,10 +17,10 @@
 static const double PI = 3.14159265358979323846;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-enum { MAX_NODES = 400000, MAX_ROUNDS = 4000, SMOOTHINGS = 3 };
+enum { MAX_NODES = 400000, MAX_ROUNDS = 4000, SMOOTHINGS = 6 };
 
 /* What a random number is for; items count within it. */
-enum { STEM = 1, POINT, TIER, LOBE, WANDER };
+enum { STEM = 1, FORK, LIMB, POINT, TIER, LOBE, WANDER };
 
 static pps_uniforms draw(uint64_t seed, int use, uint64_t item, uint64_t event) {
     return pps_random(seed, PPS_RANDOM_SPECIES, (uint64_t)use << 40 | item, event);
@@ -70,16 +70,47 @@ static pps_status add_stem(const pps_species *species, uint64_t seed, int i,
         double bend = species->stems.wander * height * t;
         double p[3] = {0, 0, z};
         vec_along(p, foot + z * tan(lean) * (0.5 + 0.5 * t), out, p);
-        vec_along(p,
-                  0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
-                      0.35 * bend * sin(2 * PI * q.u[0]),
+        vec_along(p, 0.35 * bend * sin(2 * PI * (0.7 * t + q.u[0])) -
+                         0.35 * bend * sin(2 * PI * q.u[0]),
                   side, p);
-        vec_along(
-            p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) - sin(2 * PI * q.u[1])),
-            out, p);
+        vec_along(p, 0.25 * bend * (sin(2 * PI * (0.9 * t + q.u[1])) -
+                                    sin(2 * PI * q.u[1])),
+                  out, p);
         status = add_node(s, k ? (uint32_t)s->n - 1 : PPS_NO_NODE, p);
     }
     return status;
+}
+
+/* The limbs that a stem forks into at its top: evenly about it, leaning out, rising again
+ * towards their ends. */
+static pps_status add_forks(const pps_species *species, uint64_t seed, int stem,
+                            pps_skeleton *s) {
+    uint32_t top = (uint32_t)s->n - 1;
+    int n = (int)species->stems.forks;
+    double start = 2 * PI * draw(seed, FORK, UINT32_MAX, (uint64_t)stem).u[0];
+    for (int i = 0; i < n; i++) {
+        pps_uniforms r = draw(seed, FORK, (uint64_t)i, (uint64_t)stem);
+        double azimuth = start + 2 * PI * (i + 0.5 * (r.u[0] - 0.5)) / n;
+        double lean = species->stems.fork_lean * DEGREE * (0.7 + 0.6 * r.u[1]);
+        double length = species->stems.fork_length * (0.75 + 0.5 * r.u[2]);
+        /* The second in a stem starts a little lower: real forks are not in one place. */
+        uint32_t parent = top - (uint32_t)(i % 3 && top > 3 ? i % 3 : 0);
+        double at[3];
+        memcpy(at, s->node[parent].at, sizeof at);
+        int steps = (int)ceil(length / (0.6 * species->growth.step));
+        for (int k = 0; k < steps; k++) {
+            double t = (double)k / steps, now = lean * (1.1 - 0.35 * t);
+            double turn = azimuth + species->stems.wander * sin(2 * PI * (t + r.u[3]));
+            double way[3] = {sin(now) * cos(turn), sin(now) * sin(turn), cos(now)};
+            vec_along(at, length / steps, way, at);
+            pps_status status = add_node(s, parent, at);
+            if (status) {
+                return status;
+            }
+            parent = (uint32_t)s->n - 1;
+        }
+    }
+    return PPS_OK;
 }
 
 /* ---- attraction points ---- */
@@ -119,19 +150,18 @@ static double widest(const pps_species *s) {
     return radius;
 }
 
-/* Evenly in the crown, the inner part `hollow` of its radius left out. */
-static void point_in_crown(const pps_species *s, uint64_t seed, uint64_t i,
-                           double out[3]) {
+/* Evenly in the crown, the inner part `hollow` of its radius left out but for the top. */
+static void point_in_crown(const pps_species *s, uint64_t seed, int use, uint64_t i,
+                           double hollow, double out[3]) {
     double low = s->crown.profile[0][0],
            high = s->crown.profile[s->crown.n_profile - 1][0];
     double most = widest(s) * (1 + 2 * s->crown.roughness);
     for (uint64_t again = 0;; again++) {
-        pps_uniforms r = draw(seed, POINT, i, again);
+        pps_uniforms r = draw(seed, use, i, again);
         double azimuth = 2 * PI * r.u[0], rho = most * sqrt(r.u[1]);
-        double z = low + (high - low) * r.u[2];
+        double z = low + (high - low) * r.u[2], top = (z - low) / (high - low);
         double edge = crown_radius(s, seed, azimuth, z);
-        double top = (z - low) / (high - low);
-        if (rho <= edge && (rho >= s->crown.hollow * edge || top > 0.75)) {
+        if (rho <= edge && (rho >= hollow * edge || top > 0.75)) {
             out[0] = rho * cos(azimuth);
             out[1] = rho * sin(azimuth);
             out[2] = z;
@@ -140,40 +170,69 @@ static void point_in_crown(const pps_species *s, uint64_t seed, uint64_t i,
     }
 }
 
-/* In one of the level tiers that stand about the crown, high ones nearer its axis, each
- * drooping towards its edge. */
-static void point_in_tier(const pps_species *s, uint64_t seed, uint64_t i,
-                          double out[3]) {
+/* A tier: a level disc that droops towards its edge. */
+typedef struct {
+    double center[3], radius;
+} tier;
+
+/* The tiers stand on /tiers/levels levels, one after the other a golden angle on, mostly
+ * at the crown's edge: out there they take the light. */
+static tier tier_at(const pps_species *s, uint64_t seed, uint64_t i) {
     double low = s->crown.profile[0][0],
            high = s->crown.profile[s->crown.n_profile - 1][0];
+    pps_uniforms r = draw(seed, TIER, i, 0), q = draw(seed, TIER, i, 1);
+    double start = draw(seed, TIER, UINT32_MAX, 0).u[0];
+    double level = floor(((double)i + r.u[3]) / s->tiers.count * s->tiers.levels);
+    double z = low + (high - low) * (level + 0.3 + 0.4 * q.u[0]) / s->tiers.levels;
+    double azimuth = 2 * PI * (0.381966 * (double)i + 0.12 * q.u[1] + start);
+    tier t = {.radius = s->tiers.radius[0] +
+                        r.u[0] * (s->tiers.radius[1] - s->tiers.radius[0])};
+    double room = fmax(0, crown_radius(s, seed, azimuth, z) - t.radius);
+    double rho = room * (r.u[1] < 0.3 ? 0.5 * r.u[2] : 0.7 + 0.3 * r.u[2]);
+    t.center[0] = rho * cos(azimuth);
+    t.center[1] = rho * sin(azimuth);
+    t.center[2] = z;
+    return t;
+}
+
+/* Evenly over the tiers: the draw of a tier is accepted by its area. */
+static void point_in_tier(const pps_species *s, uint64_t seed, uint64_t i,
+                          double out[3]) {
     pps_uniforms r = draw(seed, POINT, i, 0);
-    uint64_t n = (uint64_t)s->tiers.count, tier = 0;
-    /* A tier's share of the points is that of its area: draw until it is accepted. */
-    double radius = 0;
+    tier t;
     for (uint64_t again = 1;; again++) {
         pps_uniforms pick = draw(seed, POINT, i, again);
-        tier = (uint64_t)(pick.u[0] * (double)n);
-        pps_uniforms size = draw(seed, TIER, tier, 0);
-        radius =
-            s->tiers.radius[0] + size.u[0] * (s->tiers.radius[1] - s->tiers.radius[0]);
-        double ratio = radius / s->tiers.radius[1];
+        t = tier_at(s, seed, (uint64_t)(pick.u[0] * s->tiers.count));
+        double ratio = t.radius / s->tiers.radius[1];
         if (pick.u[1] < ratio * ratio) {
             break;
         }
     }
-    pps_uniforms place = draw(seed, TIER, tier, 1);
-    double level = ((double)tier + 0.2 + 0.6 * place.u[0]) / (double)n;
-    double z = low + (high - low) * level;
-    double azimuth = 2 * PI * (0.381966 * (double)tier + 0.15 * place.u[1]);
-    azimuth += 2 * PI * draw(seed, TIER, UINT32_MAX, 0).u[0];
-    double room = fmax(0, crown_radius(s, seed, azimuth, z) - radius);
-    double rho = room * (tier % 3 == 0 ? 0.55 * place.u[2] : 0.75 + 0.25 * place.u[2]);
-    double turn = 2 * PI * r.u[0], across = radius * sqrt(r.u[1]);
-    double share = across / radius;
-    out[0] = rho * cos(azimuth) + across * cos(turn);
-    out[1] = rho * sin(azimuth) + across * sin(turn);
-    out[2] = z + s->tiers.thickness * (r.u[2] + r.u[3] - 1) -
-             s->tiers.droop * share * share * radius;
+    double turn = 2 * PI * r.u[0], share = sqrt(r.u[1]);
+    out[0] = t.center[0] + share * t.radius * cos(turn);
+    out[1] = t.center[1] + share * t.radius * sin(turn);
+    out[2] = t.center[2] + s->tiers.thickness * (r.u[2] + r.u[3] - 1) -
+             s->tiers.droop * share * share * t.radius;
+}
+
+/* Where the limbs go first: the middles of the tiers, or places in the crown. */
+static void point_of_limb(const pps_species *s, uint64_t seed, uint64_t i,
+                          double out[3]) {
+    if (s->tiers.count > 0) {
+        tier t = tier_at(s, seed, i);
+        memcpy(out, t.center, sizeof t.center);
+    } else {
+        point_in_crown(s, seed, LIMB, i, 0, out);
+    }
+}
+
+static void point_of_twig(const pps_species *s, uint64_t seed, uint64_t i,
+                          double out[3]) {
+    if (s->tiers.count > 0) {
+        point_in_tier(s, seed, i, out);
+    } else {
+        point_in_crown(s, seed, POINT, i, s->crown.hollow, out);
+    }
 }
 
 /* ---- colonisation ---- */
@@ -264,15 +323,14 @@ static pps_status sprout(const pps_species *species, uint64_t seed, pps_skeleton
     return PPS_OK;
 }
 
-static pps_status colonise(const pps_species *species, uint64_t seed, attractor *point,
-                           size_t n_points, pps_skeleton *s) {
-    double kill = species->growth.kill * species->growth.kill;
+static pps_status colonise(const pps_species *species, uint64_t seed, double kill,
+                           attractor *point, size_t n_points, pps_skeleton *s) {
     size_t met = 0;
     for (int round = 0; round < MAX_ROUNDS && s->n < MAX_NODES; round++) {
         meet(point, n_points, s, met);
         met = s->n;
         for (size_t i = 0; i < n_points; i++) {
-            point[i].alive = point[i].alive && point[i].distance >= kill;
+            point[i].alive = point[i].alive && point[i].distance >= kill * kill;
         }
         double(*way)[3] = malloc(s->n * sizeof *way);
         if (!way) {
@@ -286,6 +344,34 @@ static pps_status colonise(const pps_species *species, uint64_t seed, attractor 
         }
     }
     return PPS_OK;
+}
+
+/* Limbs first, towards a few points; then twigs from them towards many. */
+static pps_status branch(const pps_species *species, uint64_t seed, pps_skeleton *s) {
+    size_t n_twigs = (size_t)species->crown.points;
+    size_t n_limbs = (size_t)(species->tiers.count > 0 ? species->tiers.count
+                                                       : species->crown.limbs);
+    attractor *point = malloc((n_limbs + n_twigs) * sizeof *point);
+    if (!point) {
+        return PPS_ERR_MEMORY;
+    }
+    for (size_t i = 0; i < n_limbs + n_twigs; i++) {
+        point[i] = (attractor){{0, 0, 0}, INFINITY, 0, true};
+        if (i < n_limbs) {
+            point_of_limb(species, seed, i, point[i].at);
+        } else {
+            point_of_twig(species, seed, i - n_limbs, point[i].at);
+        }
+        snap(point[i].at);
+    }
+    double near = fmax(species->growth.kill, 1.5 * species->growth.step);
+    pps_status status = colonise(species, seed, near, point, n_limbs, s);
+    if (!status) {
+        status = colonise(species, seed, species->growth.kill, point + n_limbs, n_twigs,
+                          s);
+    }
+    free(point);
+    return status;
 }
 
 /* ---- shape ---- */
@@ -323,11 +409,11 @@ static pps_status smooth(pps_skeleton *s) {
             const pps_node *node = &s->node[k];
             bool end = node->parent == PPS_NO_NODE || node->main_child == PPS_NO_NODE;
             for (int i = 0; i < 3; i++) {
-                moved[k][i] =
-                    end ? node->at[i]
-                        : node->at[i] / 2 + (s->node[node->parent].at[i] +
-                                             s->node[node->main_child].at[i]) /
-                                                4;
+                moved[k][i] = end ? node->at[i]
+                                  : node->at[i] / 2 +
+                                        (s->node[node->parent].at[i] +
+                                         s->node[node->main_child].at[i]) /
+                                            4;
             }
         }
         for (size_t k = 0; k < s->n; k++) {
@@ -379,7 +465,7 @@ static void simplify(const pps_species *species, pps_skeleton *s) {
             double span[3];
             vec_sub(child->at, parent->at, span);
             drop = parent->n_children == 1 && vec_length(span) < longest &&
-                   off_line(node.at, parent->at, child->at) < 0.3 * node.radius + 0.003;
+                   off_line(node.at, parent->at, child->at) < 0.3 * node.radius + 0.004;
         }
         if (drop) {
             now[k] = now[node.parent]; /* its child now hangs on the parent */
@@ -397,20 +483,12 @@ static void simplify(const pps_species *species, pps_skeleton *s) {
 pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
                              pps_skeleton *out) {
     *out = (pps_skeleton){0, 0, NULL};
-    size_t n_points = (size_t)species->crown.points;
-    attractor *point = malloc(n_points * sizeof *point);
-    pps_status status = point ? PPS_OK : PPS_ERR_MEMORY;
+    pps_status status = PPS_OK;
     for (int i = 0; i < (int)species->stems.count && !status; i++) {
         status = add_stem(species, seed, i, out);
+        status = status ? status : add_forks(species, seed, i, out);
     }
-    for (size_t i = 0; i < n_points && !status; i++) {
-        point[i] = (attractor){{0, 0, 0}, INFINITY, 0, true};
-        (species->tiers.count > 0 ? point_in_tier : point_in_crown)(species, seed, i,
-                                                                    point[i].at);
-        snap(point[i].at);
-    }
-    status = status ? status : colonise(species, seed, point, n_points, out);
-    free(point);
+    status = status ? status : branch(species, seed, out);
     if (!status) {
         count_tips(out);
         status = smooth(out);

@@ -12,15 +12,15 @@ enum { PPS_PROFILE_POINTS = 32, PPS_OUTLINE_POINTS = 60 };
 typedef struct pps_species {
     double triangles, leaf_area_index;
     struct {
-        double count, height, lean, spread, wander;
+        double count, height, lean, spread, wander, forks, fork_length, fork_lean;
     } stems;
     struct {
-        double points, hollow, roughness;
+        double limbs, points, hollow, roughness;
         size_t n_profile;
         double profile[PPS_PROFILE_POINTS][2]; /* height, radius; heights ascend */
     } crown;
     struct {
-        double count, radius[2], thickness, droop;
+        double count, levels, radius[2], thickness, droop;
     } tiers;
     struct {
         double step, reach, kill, rise, wander;
