@@ -1,0 +1,327 @@
+/* Deep opacity maps on the CPU.
+ *
+ * Two passes over the triangles, as on a GPU: the first finds where light meets the first
+ * and the last surface of each texel, the second counts into the layers between. Which
+ * texels a triangle covers is decided as OpenGL's rasterisers do: corners in single
+ * precision, moved to the nearest 1/256 texel, and of texels whose middle lies on an edge
+ * those of left and top edges, so that neighbouring triangles never both cover one.
+ *
+ * References: Yuksel & Keyser 2008; SPP section 5.1.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <ppscat/tree/opacity.h>
+
+#include "tree/alpha.h"
+#include "tree/vec.h"
+
+enum { LAYERS = PPS_OPACITY_LAYERS, DEFAULT_TEXELS = 128, STEPS = 256 };
+
+/* A corner on the map: across in steps of 1/256 texel from the middle of texel (0, 0),
+ * and along the light in metres. */
+typedef struct {
+    int32_t x, y;
+    float along;
+} corner;
+
+/* A triangle on the map, its corners counter-clockwise when y points up. */
+typedef struct {
+    corner c[3];
+    int64_t area; /* twice, in steps^2 */
+    bool
+        exchanged; /* the mesh has corners 1 and 2 the other way round: seen from behind */
+} outline;
+
+typedef struct {
+    const pps_mesh *mesh;
+    pps_opacity_map *map;
+    corner *corner; /* of each vertex */
+    int wood;
+} painter;
+
+/* ---- the frame ---- */
+
+static bool sound_options(const pps_opacity_options *o) {
+    return !o || ((!o->texels || (o->texels >= 4 && o->texels <= 4096)) &&
+                  o->wood >= 0 && o->wood <= 1024);
+}
+
+/* The extent of the mesh along an axis. */
+static void extent(const pps_mesh *mesh, const double axis[3], double range[2]) {
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (size_t v = 0; v < mesh->n_vertices; v++) {
+        double at = vec_dot(mesh->position[v], axis);
+        range[0] = fmin(range[0], at);
+        range[1] = fmax(range[1], at);
+    }
+}
+
+pps_status pps_opacity_frame(const pps_mesh *mesh, const double to[3],
+                             const pps_opacity_options *options,
+                             pps_opacity_map *frame) {
+    memset(frame, 0, sizeof *frame);
+    if (!mesh || !sound_options(options) || !(fabs(vec_length(to) - 1) < 1e-9)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    frame->texels = options && options->texels ? options->texels : DEFAULT_TEXELS;
+    for (int i = 0; i < 3; i++) {
+        frame->axis[2][i] = -to[i];
+    }
+    vec_frame(frame->axis[2], frame->axis[0], frame->axis[1]);
+    for (int i = 0; i < 2; i++) {
+        double range[2];
+        extent(mesh, frame->axis[i], range);
+        double width = range[1] > range[0] ? range[1] - range[0] : 1;
+        /* One texel stays free on either side: nothing is clipped. */
+        frame->size[i] = width / (frame->texels - 2);
+        frame->low[i] = range[0] - frame->size[i];
+    }
+    return PPS_OK;
+}
+
+/* ---- which texels a triangle covers ---- */
+
+/* Steps from the middle of the first texel, by the arithmetic of a GPU: the place in
+ * clip space -1..1, then in texels, then rounded. */
+static int32_t snap(const pps_opacity_map *map, int i, const double p[3]) {
+    float scale = (float)(2 / (map->texels * map->size[i])), half = 0.5F;
+    float shift = (float)(-2 * map->low[i] / (map->texels * map->size[i]) - 1);
+    float clip = (float)p[0] * ((float)map->axis[i][0] * scale) +
+                 (float)p[1] * ((float)map->axis[i][1] * scale) +
+                 (float)p[2] * ((float)map->axis[i][2] * scale) + shift;
+    float texels = clip * (half * (float)map->texels) + half * (float)map->texels;
+    return (int32_t)lrintf((texels - half) * (float)STEPS);
+}
+
+static void place_corners(painter *p) {
+    for (size_t v = 0; v < p->mesh->n_vertices; v++) {
+        const double *at = p->mesh->position[v];
+        const double *along = p->map->axis[2];
+        p->corner[v] =
+            (corner){snap(p->map, 0, at), snap(p->map, 1, at),
+                     (float)at[0] * (float)along[0] + (float)at[1] * (float)along[1] +
+                         (float)at[2] * (float)along[2]};
+    }
+}
+
+/* Twice the area of a, b and the place (x, y): positive to the left of the way a to b. */
+static int64_t beside(const corner *a, const corner *b, int64_t x, int64_t y) {
+    return (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
+}
+
+/* Whether a place on the edge itself belongs to the triangle: left and top edges. */
+static bool owns_edge(const corner *a, const corner *b) {
+    return b->y < a->y || (b->y == a->y && b->x > a->x);
+}
+
+/* False where the triangle has no area on the map. */
+static bool lay_out(const painter *p, size_t triangle, outline *o) {
+    for (int i = 0; i < 3; i++) {
+        o->c[i] = p->corner[p->mesh->triangle[triangle][i]];
+    }
+    o->area = beside(&o->c[0], &o->c[1], o->c[2].x, o->c[2].y);
+    o->exchanged = o->area < 0;
+    if (o->exchanged) {
+        corner c = o->c[1];
+        o->c[1] = o->c[2];
+        o->c[2] = c;
+        o->area = -o->area;
+    }
+    return o->area != 0;
+}
+
+/* From steps to the first texel whose middle is not below, and the last not above. */
+static int64_t texel_up(int64_t steps) { return (steps + STEPS - 1) >> 8; }
+static int64_t texel_down(int64_t steps) { return steps >> 8; }
+
+static int64_t least3(int64_t a, int64_t b, int64_t c) {
+    int64_t ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+/* ---- the passes ---- */
+
+typedef void pass(const painter *p, size_t texel, float along);
+
+static void widen(const painter *p, size_t texel, float along) {
+    pps_opacity_map *map = p->map;
+    map->first[texel] = fminf(map->first[texel], along);
+    map->last[texel] = fmaxf(map->last[texel], along);
+}
+
+/* One surface more, in its layer and all behind. */
+static void add(const painter *p, size_t texel, int weight, float along) {
+    float first = p->map->first[texel], span = p->map->last[texel] - first;
+    int layer = span > 0 ? (int)((along - first) / span * LAYERS) : 0;
+    for (int k = layer < LAYERS ? layer : LAYERS - 1; k < LAYERS; k++) {
+        p->map->count[texel * LAYERS + (size_t)k] += (float)weight;
+    }
+}
+
+static void add_leaf(const painter *p, size_t texel, float along) {
+    add(p, texel, 1, along);
+}
+
+static void add_wood(const painter *p, size_t texel, float along) {
+    add(p, texel, p->wood, along);
+}
+
+/* Visit the texel (x, y) if the triangle covers it and its surface is there. */
+static void visit(const painter *p, size_t triangle, const outline *o, bool cut,
+                  int64_t x, int64_t y, pass *each) {
+    int64_t part[3]; /* of corner i: the area across from it */
+    for (int i = 0; i < 3; i++) {
+        const corner *a = &o->c[(i + 1) % 3], *b = &o->c[(i + 2) % 3];
+        part[i] = beside(a, b, x * STEPS, y * STEPS);
+        if (part[i] < 0 || (part[i] == 0 && !owns_edge(a, b))) {
+            return;
+        }
+    }
+    double u = (double)part[1] / (double)o->area, v = (double)part[2] / (double)o->area;
+    double along = (double)o->c[0].along + u * (double)(o->c[1].along - o->c[0].along) +
+                   v * (double)(o->c[2].along - o->c[0].along);
+    if (!cut || pps_alpha_there(p->mesh, triangle, o->exchanged ? v : u,
+                                o->exchanged ? u : v)) {
+        each(p, (size_t)(y * p->map->texels + x), (float)along);
+    }
+}
+
+static void cover(const painter *p, size_t triangle, pass *leaf, pass *wood) {
+    outline o;
+    bool is_wood = p->mesh->leaf_of[triangle] == PPS_NO_LEAF;
+    /* On the map y runs with axis[1] and light comes towards the viewer's back, so what
+     * faces the light runs clockwise. */
+    if (!lay_out(p, triangle, &o) || (is_wood && !o.exchanged)) {
+        return;
+    }
+    const corner *c = o.c;
+    bool cut = pps_alpha_any(p->mesh, triangle);
+    int64_t low[2] = {texel_up(least3(c[0].x, c[1].x, c[2].x)),
+                      texel_up(least3(c[0].y, c[1].y, c[2].y))};
+    int64_t high[2] = {texel_down(-least3(-c[0].x, -c[1].x, -c[2].x)),
+                       texel_down(-least3(-c[0].y, -c[1].y, -c[2].y))};
+    for (int64_t y = low[1]; y <= high[1]; y++) {
+        for (int64_t x = low[0]; x <= high[0]; x++) {
+            visit(p, triangle, &o, cut, x, y, is_wood ? wood : leaf);
+        }
+    }
+}
+
+static void paint(const painter *p) {
+    size_t n = (size_t)p->map->texels * (size_t)p->map->texels;
+    for (size_t t = 0; t < n; t++) {
+        p->map->first[t] = INFINITY;
+        p->map->last[t] = -INFINITY;
+    }
+    for (size_t t = 0; t < p->mesh->n_triangles; t++) {
+        cover(p, t, widen, widen);
+    }
+    for (size_t t = 0; t < p->mesh->n_triangles; t++) {
+        cover(p, t, add_leaf, add_wood);
+    }
+}
+
+/* ---- life ---- */
+
+pps_status pps_opacity_map_create(const pps_mesh *mesh, const double to[3],
+                                  const pps_opacity_options *options,
+                                  pps_opacity_map **out) {
+    *out = NULL;
+    pps_opacity_map frame;
+    pps_status status = pps_opacity_frame(mesh, to, options, &frame);
+    if (status) {
+        return status;
+    }
+    size_t n = (size_t)frame.texels * (size_t)frame.texels;
+    frame.first = malloc(n * sizeof *frame.first);
+    frame.last = malloc(n * sizeof *frame.last);
+    frame.count = calloc(n * LAYERS, sizeof *frame.count);
+    pps_opacity_map *map = malloc(sizeof *map);
+    painter p = {mesh, &frame, malloc((mesh->n_vertices + 1) * sizeof *p.corner),
+                 options && options->wood ? options->wood : 1};
+    if (frame.first && frame.last && frame.count && map && p.corner) {
+        place_corners(&p);
+        paint(&p);
+        *map = frame;
+        *out = map;
+    } else {
+        free(frame.first);
+        free(frame.last);
+        free(frame.count);
+        free(map);
+        status = PPS_ERR_MEMORY;
+    }
+    free(p.corner);
+    return status;
+}
+
+void pps_opacity_map_free(pps_opacity_map *map) {
+    if (map) {
+        free(map->first);
+        free(map->last);
+        free(map->count);
+        free(map);
+    }
+}
+
+/* ---- looking up ---- */
+
+/* Surfaces down to `along` in a texel: from 0 at the first, linear in each layer. */
+static double count_down_to(const pps_opacity_map *map, size_t texel, double along) {
+    double first = (double)map->first[texel], last = (double)map->last[texel];
+    const float *count = map->count + texel * LAYERS;
+    if (!(along > first)) { /* also where there is nothing: first is infinite */
+        return 0;
+    }
+    if (along >= last) {
+        return (double)count[LAYERS - 1];
+    }
+    double layers = (along - first) / (last - first) * LAYERS;
+    int k = layers < LAYERS ? (int)layers : LAYERS - 1;
+    double before = k > 0 ? (double)count[k - 1] : 0;
+    return before + (layers - k) * ((double)count[k] - before);
+}
+
+/* The four texels about a point and their shares; texels off the map have the share 0.
+ * Returns the point's length along the light. */
+static double four_texels(const pps_opacity_map *map, const double point[3],
+                          size_t texel[4], double share[4]) {
+    double low[2], part[2];
+    for (int i = 0; i < 2; i++) {
+        double at = (vec_dot(point, map->axis[i]) - map->low[i]) / map->size[i] - 0.5;
+        low[i] = floor(at);
+        part[i] = at - low[i];
+    }
+    for (int k = 0; k < 4; k++) {
+        double x = low[0] + k % 2, y = low[1] + k / 2;
+        bool on = x >= 0 && x < map->texels && y >= 0 && y < map->texels;
+        texel[k] = on ? (size_t)y * (size_t)map->texels + (size_t)x : 0;
+        share[k] =
+            on ? (k % 2 ? part[0] : 1 - part[0]) * (k / 2 ? part[1] : 1 - part[1]) : 0;
+    }
+    return vec_dot(point, map->axis[2]);
+}
+
+double pps_opacity_depth(const pps_opacity_map *map, const double point[3]) {
+    size_t texel[4];
+    double share[4], along = four_texels(map, point, texel, share), depth = 0;
+    for (int k = 0; k < 4; k++) {
+        depth += share[k] > 0 ? share[k] * count_down_to(map, texel[k], along) : 0;
+    }
+    return depth;
+}
+
+double pps_opacity_visibility(const pps_opacity_map *map, const double point[3],
+                              double bias) {
+    size_t texel[4];
+    double share[4], along = four_texels(map, point, texel, share), hidden = 0;
+    for (int k = 0; k < 4; k++) {
+        hidden +=
+            share[k] > 0 && along > (double)map->first[texel[k]] + bias ? share[k] : 0;
+    }
+    return 1 - hidden;
+}
