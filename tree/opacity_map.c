@@ -20,11 +20,11 @@
 
 enum { LAYERS = PPS_OPACITY_LAYERS, DEFAULT_TEXELS = 128, STEPS = 256 };
 
-/* A corner on the map: across in steps of 1/256 texel from the middle of texel (0, 0),
- * and along the light in metres. */
+/* A corner on the map, from the middle of texel (0, 0): across in texels, the same in
+ * whole steps of 1/256 texel, and along the light in metres. */
 typedef struct {
+    float across[2], along;
     int32_t x, y;
-    float along;
 } corner;
 
 /* A triangle on the map, its corners counter-clockwise when y points up. */
@@ -85,26 +85,28 @@ pps_status pps_opacity_frame(const pps_mesh *mesh, const double to[3],
 
 /* ---- which texels a triangle covers ---- */
 
-/* Steps from the middle of the first texel, by the arithmetic of a GPU: the place in
- * clip space -1..1, then in texels, then rounded. */
-static int32_t snap(const pps_opacity_map *map, int i, const double p[3]) {
+/* Texels from the middle of the first, by the arithmetic of a GPU: the place in clip space
+ * -1..1, then in texels. */
+static float texels_across(const pps_opacity_map *map, int i, const double p[3]) {
     float scale = (float)(2 / (map->texels * map->size[i])), half = 0.5F;
     float shift = (float)(-2 * map->low[i] / (map->texels * map->size[i]) - 1);
     float clip = (float)p[0] * ((float)map->axis[i][0] * scale) +
                  (float)p[1] * ((float)map->axis[i][1] * scale) +
                  (float)p[2] * ((float)map->axis[i][2] * scale) + shift;
-    float texels = clip * (half * (float)map->texels) + half * (float)map->texels;
-    return (int32_t)lrintf((texels - half) * (float)STEPS);
+    return clip * (half * (float)map->texels) + half * (float)map->texels - half;
 }
 
 static void place_corners(painter *p) {
     for (size_t v = 0; v < p->mesh->n_vertices; v++) {
         const double *at = p->mesh->position[v];
         const double *along = p->map->axis[2];
-        p->corner[v] =
-            (corner){snap(p->map, 0, at), snap(p->map, 1, at),
-                     (float)at[0] * (float)along[0] + (float)at[1] * (float)along[1] +
-                         (float)at[2] * (float)along[2]};
+        corner *c = &p->corner[v];
+        c->across[0] = texels_across(p->map, 0, at);
+        c->across[1] = texels_across(p->map, 1, at);
+        c->along = (float)at[0] * (float)along[0] + (float)at[1] * (float)along[1] +
+                   (float)at[2] * (float)along[2];
+        c->x = (int32_t)lrintf(c->across[0] * (float)STEPS);
+        c->y = (int32_t)lrintf(c->across[1] * (float)STEPS);
     }
 }
 
@@ -170,18 +172,39 @@ static void add_wood(const painter *p, size_t texel, float along) {
     add(p, texel, p->wood, along);
 }
 
+static bool covers(const outline *o, int64_t x, int64_t y) {
+    for (int i = 0; i < 3; i++) {
+        const corner *a = &o->c[i], *b = &o->c[(i + 1) % 3];
+        int64_t side = beside(a, b, x * STEPS, y * STEPS);
+        if (side < 0 || (side == 0 && !owns_edge(a, b))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Shares of corners 1 and 2 at the middle of a texel. From the corners as they are, before
+ * they moved to whole steps, for so GPUs interpolate: a triangle seen edge-on is steep. */
+static void shares(const corner c[3], double x, double y, double *u, double *v) {
+    double ab[2], ac[2],
+        at[2] = {x - (double)c[0].across[0], y - (double)c[0].across[1]};
+    for (int i = 0; i < 2; i++) {
+        ab[i] = (double)c[1].across[i] - (double)c[0].across[i];
+        ac[i] = (double)c[2].across[i] - (double)c[0].across[i];
+    }
+    double area = ab[0] * ac[1] - ab[1] * ac[0];
+    *u = area != 0 ? (at[0] * ac[1] - at[1] * ac[0]) / area : 0;
+    *v = area != 0 ? (ab[0] * at[1] - ab[1] * at[0]) / area : 0;
+}
+
 /* Visit the texel (x, y) if the triangle covers it and its surface is there. */
 static void visit(const painter *p, size_t triangle, const outline *o, bool cut,
                   int64_t x, int64_t y, pass *each) {
-    int64_t part[3]; /* of corner i: the area across from it */
-    for (int i = 0; i < 3; i++) {
-        const corner *a = &o->c[(i + 1) % 3], *b = &o->c[(i + 2) % 3];
-        part[i] = beside(a, b, x * STEPS, y * STEPS);
-        if (part[i] < 0 || (part[i] == 0 && !owns_edge(a, b))) {
-            return;
-        }
+    if (!covers(o, x, y)) {
+        return;
     }
-    double u = (double)part[1] / (double)o->area, v = (double)part[2] / (double)o->area;
+    double u, v;
+    shares(o->c, (double)x, (double)y, &u, &v);
     double along = (double)o->c[0].along + u * (double)(o->c[1].along - o->c[0].along) +
                    v * (double)(o->c[2].along - o->c[0].along);
     if (!cut || pps_alpha_there(p->mesh, triangle, o->exchanged ? v : u,
