@@ -16,6 +16,7 @@
 #include <ppscat/tree/opacity.h>
 
 #include "tree/alpha.h"
+#include "tree/opacity_look.h"
 #include "tree/vec.h"
 
 enum { LAYERS = PPS_OPACITY_LAYERS, DEFAULT_TEXELS = 128, STEPS = 256 };
@@ -293,20 +294,20 @@ void pps_opacity_map_free(pps_opacity_map *map) {
 
 /* ---- looking up ---- */
 
-/* Surfaces down to `along` in a texel: from 0 at the first, linear in each layer. */
-static double count_down_to(const pps_opacity_map *map, size_t texel, double along) {
+/* Surfaces down to `along` in a texel: from 0 at the first, linear in each layer; without
+ * `own` of them, in the layer that the place is in. */
+static double count_down_to(const pps_opacity_map *map, size_t texel, double along,
+                            double own) {
     double first = (double)map->first[texel], last = (double)map->last[texel];
     const float *count = map->count + texel * LAYERS;
     if (!(along > first)) { /* also where there is nothing: first is infinite */
         return 0;
     }
-    if (along >= last) {
-        return (double)count[LAYERS - 1];
-    }
-    double layers = (along - first) / (last - first) * LAYERS;
+    double layers = last > first ? (along - first) / (last - first) * LAYERS : LAYERS;
     int k = layers < LAYERS ? (int)layers : LAYERS - 1;
     double before = k > 0 ? (double)count[k - 1] : 0;
-    return before + (layers - k) * ((double)count[k] - before);
+    double here = fmax((double)count[k] - before - own, 0);
+    return before + fmin(layers - k, 1) * here;
 }
 
 /* The four texels about a point and their shares; texels off the map have the share 0.
@@ -329,22 +330,38 @@ static double four_texels(const pps_opacity_map *map, const double point[3],
     return vec_dot(point, map->axis[2]);
 }
 
-double pps_opacity_depth(const pps_opacity_map *map, const double point[3]) {
+bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3], double bias,
+                         pps_opacity_look *look) {
     size_t texel[4];
-    double share[4], along = four_texels(map, point, texel, share), depth = 0;
+    double share[4], along = four_texels(map, point, texel, share);
+    bool on = false;
+    *look = (pps_opacity_look){0, 0, 1, 1};
     for (int k = 0; k < 4; k++) {
-        depth += share[k] > 0 ? share[k] * count_down_to(map, texel[k], along) : 0;
+        if (share[k] > 0) {
+            size_t t = texel[k];
+            double first = (double)map->first[t], last = (double)map->last[t];
+            double own = bias > 0 && along > first - bias && along < last + bias;
+            double before = count_down_to(map, t, along, own);
+            double all = (double)map->count[t * LAYERS + LAYERS - 1];
+            on = true;
+            look->depth += share[k] * before;
+            look->behind += share[k] * fmax(all - own - before, 0);
+            look->visible -= along > first + bias ? share[k] : 0;
+            look->clear -= along < last - bias ? share[k] : 0;
+        }
     }
-    return depth;
+    return on;
+}
+
+double pps_opacity_depth(const pps_opacity_map *map, const double point[3]) {
+    pps_opacity_look look;
+    pps_opacity_look_at(map, point, 0, &look);
+    return look.depth;
 }
 
 double pps_opacity_visibility(const pps_opacity_map *map, const double point[3],
                               double bias) {
-    size_t texel[4];
-    double share[4], along = four_texels(map, point, texel, share), hidden = 0;
-    for (int k = 0; k < 4; k++) {
-        hidden +=
-            share[k] > 0 && along > (double)map->first[texel[k]] + bias ? share[k] : 0;
-    }
-    return 1 - hidden;
+    pps_opacity_look look;
+    pps_opacity_look_at(map, point, bias, &look);
+    return look.visible;
 }
