@@ -11,21 +11,46 @@
 static const struct {
     const char *name, *text;
 } shaders[] = {
-#define SHADER(name)                                                                   \
-    {                                                                                  \
-#name,
-#define END                                                                            \
-    }                                                                                  \
-    ,
-    SHADER(map_count_frag)
+    {
+        "backdrop_frag",
+#include "backdrop_frag_glsl.inc"
+    },
+    {
+        "backdrop_vert",
+#include "backdrop_vert_glsl.inc"
+    },
+    {
+        "map_count_frag",
 #include "map_count_frag_glsl.inc"
-        END SHADER(map_span_frag)
+    },
+    {
+        "map_span_frag",
 #include "map_span_frag_glsl.inc"
-            END SHADER(map_vert)
+    },
+    {
+        "map_vert",
 #include "map_vert_glsl.inc"
-                END
-#undef SHADER
-#undef END
+    },
+    {
+        "open_frag",
+#include "open_frag_glsl.inc"
+    },
+    {
+        "plant_frag",
+#include "plant_frag_glsl.inc"
+    },
+    {
+        "plant_vert",
+#include "plant_vert_glsl.inc"
+    },
+    {
+        "sun",
+#include "sun_glsl.inc"
+    },
+    {
+        "tone_frag",
+#include "tone_frag_glsl.inc"
+    },
 };
 
 static const char *shader_text(const char *name) {
@@ -37,12 +62,26 @@ static const char *shader_text(const char *name) {
     return NULL;
 }
 
+/* The text of a shader without its version, which comes once and first. */
+static const char *part_text(const char *name) {
+    static const char version[] = "#version 330 core\n";
+    const char *text = shader_text(name);
+    const char *after = text ? strstr(text, version) : NULL;
+    return after ? after + sizeof version - 1 : text;
+}
+
+/* `name` is a shader's, or "PART+SHADER". */
 static GLuint compile(GLenum kind, const char *name, pps_problem *problem) {
-    /* The first line is a comment; the version must come before all else. */
-    const char *text = strstr(shader_text(name), "#version");
+    char first[40] = "";
+    const char *plus = strchr(name, '+');
+    if (plus) {
+        snprintf(first, sizeof first, "%.*s", (int)(plus - name), name);
+    }
+    const char *text[] = {"#version 330 core\n", plus ? part_text(first) : "",
+                          part_text(plus ? plus + 1 : name)};
     GLuint shader = glCreateShader(kind);
     GLint good = 0;
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, 3, text, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     if (!good) {
