@@ -12,8 +12,4 @@ enum { CASE_ROW_SIZE = 320 };
 /* "method,albedo,g,thickness,mu0" as fields. */
 void case_row(char text[CASE_ROW_SIZE], const pps_method *method, const sweep_case *at);
 
-/* Say on standard error what method `auto` picked for a case, and why; nothing for the
- * other methods. */
-void case_explain(const sweep_case *at, const pps_info *info);
-
 #endif

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <omp.h>
-
 #include "cli.h"
 #include "compare.h"
 #include "output.h"
@@ -292,14 +290,12 @@ static int write_row(chart *c, const setting *s, size_t i, const point *p) {
 
 static int run(chart *c) {
     bench b;
-    int rc = open_bench(&b, c), threads = omp_get_max_threads();
+    int rc = open_bench(&b, c);
 
-    omp_set_num_threads(1);
     progress_start(&c->progress, c->grid->progress, c->n_settings * c->n_cases);
     for (size_t i = 0; i < c->n_cases && rc == CLI_DONE; i++)
         rc = measure_case(c, i, &b);
     progress_end(&c->progress);
-    omp_set_num_threads(threads);
     for (size_t s = 0; s < c->n_settings; s++) {
         for (size_t i = 0; i < c->n_cases && rc == CLI_DONE; i++)
             rc = write_row(c, &c->settings[s], i, &c->points[s * c->n_cases + i]);

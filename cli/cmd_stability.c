@@ -11,6 +11,7 @@
 
 #include "case_row.h"
 #include "cli.h"
+#include "crew.h"
 #include "output.h"
 #include "progress.h"
 #include "stability_design.h"
@@ -38,7 +39,8 @@ typedef struct {
     tile *tiles;
     cell *cells; /* [method * n_cases + case] */
     progress_meter progress;
-    atomic_int failed; /* CLI_FAILED once memory ran out */
+    atomic_size_t next; /* tile to take */
+    atomic_int failed;  /* CLI_FAILED once memory ran out */
 } walk;
 
 static size_t tile_cases(const case_grid *grid) {
@@ -182,6 +184,16 @@ static void walk_tile(walk *w, const tile *t) {
     close_station(&s, w->n_methods);
 }
 
+/* A thread: tiles, one after the other. */
+static void *walk_tiles(void *context) {
+    walk *w = context;
+    size_t k;
+
+    while ((k = atomic_fetch_add(&w->next, 1)) < w->n_tiles)
+        walk_tile(w, &w->tiles[k]);
+    return NULL;
+}
+
 /* ---- all of them ---- */
 
 static int write_cell(output *out, const tile *t, size_t i, const pps_method *method,
@@ -216,9 +228,7 @@ static int run(walk *w, const invocation *call) {
     if (rc != CLI_DONE)
         return rc;
     progress_start(&w->progress, w->grid->progress, w->n_cases * w->n_methods);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(w->grid->threads)
-    for (size_t k = 0; k < w->n_tiles; k++)
-        walk_tile(w, &w->tiles[k]);
+    crew_run(w->grid->threads, walk_tiles, w);
     progress_end(&w->progress);
     rc = atomic_load(&w->failed);
     for (size_t m = 0; m < w->n_methods && rc == CLI_DONE; m++)

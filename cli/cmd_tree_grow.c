@@ -82,6 +82,8 @@ int cmd_tree_grow(const invocation *call) {
     uint64_t seed = 0;
     int rc = value_count(call, OPT_SEED, 0, UINT64_MAX, &seed);
 
+    if (rc == CLI_DONE && option_given(call, OPT_OUTPUT))
+        rc = output_writable(call->text[OPT_OUTPUT]);
     if (rc == CLI_DONE)
         rc = option_given(call, OPT_CROWN) ? grow_crown(call, seed, &mesh)
                                            : grow_species(call, seed, &mesh);

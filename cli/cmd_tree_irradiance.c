@@ -86,34 +86,35 @@ static int find_parts(tree_work *work, const tree_asked *asked, part *parts) {
     return worst;
 }
 
-static int write_all(const invocation *call, const tree_work *work, size_t n,
-                     const part *parts) {
-    output out;
-    int rc = output_open(&out, call);
+static int write_all(output *out, const tree_work *work, size_t n, const part *parts) {
+    int rc = CLI_DONE;
 
-    if (rc != CLI_DONE)
-        return rc;
     for (size_t leaf = 0; leaf < work->scene->n_leaves && rc == CLI_DONE; leaf++)
-        rc = write_leaf(&out, work, n, parts, leaf);
-    return output_close(&out, rc);
+        rc = write_leaf(out, work, n, parts, leaf);
+    return rc;
 }
 
+/* The file is opened before the work is done: it may be refused. */
 static int run(const invocation *call, const pps_scene *scene,
                const tree_settings *settings, const tree_asked *asked) {
     size_t n = asked->n_methods * asked->n_components;
-    part *parts = calloc(n, sizeof *parts);
     tree_work work = {scene, settings, NULL};
-    int rc = parts ? find_parts(&work, asked, parts) : cli_no_memory();
+    output out;
+    int rc = output_open(&out, call), found;
 
-    if (rc == CLI_DONE || rc == CLI_REFUSED) {
-        int written = write_all(call, &work, n, parts);
-        rc = written == CLI_DONE ? rc : written;
-    }
+    if (rc != CLI_DONE)
+        return rc;
+    part *parts = calloc(n, sizeof *parts);
+    found = parts ? find_parts(&work, asked, parts) : cli_no_memory();
+    rc = found == CLI_REFUSED ? CLI_DONE : found;
+    if (rc == CLI_DONE)
+        rc = write_all(&out, &work, n, parts);
     for (size_t i = 0; parts && i < n; i++)
         tree_answer_free(&parts[i].answer);
     free(parts);
     tree_work_free(&work);
-    return rc;
+    rc = output_close(&out, rc);
+    return rc == CLI_DONE ? found : rc;
 }
 
 int cmd_tree_irradiance(const invocation *call) {

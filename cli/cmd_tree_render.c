@@ -10,6 +10,7 @@
 
 #include "cli.h"
 #include "commands.h"
+#include "output.h"
 #include "tree_answer.h"
 #include "values.h"
 
@@ -212,8 +213,9 @@ static int find_light(const wish *w, tree_work *work, const tree_asked *asked,
     if (rc == CLI_DONE && w->false_color && w->kind == FALSE_ERROR)
         rc = tree_answer_find(work, &mc, asked->component[0], truth, &why);
     if (rc == CLI_DONE && w->false_color && w->kind <= FALSE_G && !answer->field)
-        return cli_usage("--false-color: model %s has no '%s'; take another model",
-                         asked->method[0].name, "number of that name");
+        return cli_usage("--false-color: model '%s' has no cells, so no such number; "
+                         "allowed with it: irradiance, error",
+                         asked->method[0].name);
     return rc == CLI_REFUSED
                ? cli_usage("model %s and component %s do not fit: %s",
                            asked->method[0].name, asked->component[0]->name, why)
@@ -259,6 +261,8 @@ int cmd_tree_render(const invocation *call) {
 
     if (rc == CLI_DONE)
         rc = read_wish(call, &w);
+    if (rc == CLI_DONE)
+        rc = output_writable(w.path);
     if (rc == CLI_DONE)
         rc = read_one(call, &asked);
     if (rc == CLI_DONE)

@@ -60,16 +60,19 @@ static const column error_columns[] = {
     {0}};
 
 static const column table_columns[] = {
-    {"table", "integer", "1", "number of the table in the paper"},
-    {"row", "string", NULL, "row of the table: the albedo, or total"},
-    {"column", "string", NULL,
-     "column of the table; S. is the simplified solution, R. the refined one"},
-    {"paper", "double", "%", "the printed root mean square error"},
-    {"ours", "double", "%",
-     "the same measured here, in percent of the beam's irradiance per steradian"},
+    {"table", "string", NULL, "the table: its number in the paper, or its name"},
+    {"row", "string", NULL, "row of the table"},
+    {"column", "string", NULL, "column of the table"},
+    {"paper", "double", NULL, "the printed figure; empty where there is none"},
+    {"ours", "double", NULL,
+     "the same measured here: percent in 1, 2, 3 and figure7, trees a second in fps"},
     {"rms_rel", "double", "%",
-     "mean over angles and depths of the root mean square error / mean exact radiance"},
-    {"method", "string", NULL, "name of the method measured"},
+     "1, 2: mean over angles and depths of the root mean square error / mean exact "
+     "radiance; 3: the error with every triangle weighing the same; figure7: mean "
+     "|difference| / mean"},
+    {"method", "string", NULL, "name of the method or light model measured"},
+    {"ratio", "double", "1", "3, figure7: mean of ours / mean of Monte Carlo"},
+    {"spread", "double", NULL, "3, figure7: half the range of `ours` over the seeds"},
     {0}};
 
 static const column chart_columns[] = {

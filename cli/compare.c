@@ -4,13 +4,10 @@
 #include "compare.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <omp.h>
-
 #include "cli.h"
-#include "sweep.h"
+#include "system.h"
 
 /* The answer of one method to a case. */
 typedef struct {
@@ -20,29 +17,16 @@ typedef struct {
     double reflected, transmitted, seconds;
 } answer;
 
-/* The comparisons of a case, and what each method and at last the reference used. */
-typedef struct {
-    comparison result;
-    bool answered;
-    pps_info info;
-} verdict;
-
-typedef struct {
-    output *out;
-    comparison *result;
-} compare_job;
-
-static size_t n_radiances(const case_grid *grid, const sweep_case *at) {
-    return at->depth->n * grid->mu.n * grid->phi.n;
+static size_t n_radiances(const sweep_unit *unit) {
+    return unit->depth.n * unit->mu.n * unit->phi.n;
 }
 
-static int solve_radiance(const sweep_task *task, const sweep_worker *worker,
-                          const sweep_case *at, answer *a) {
-    const case_grid *grid = task->grid;
-    pps_grid where = {at->depth->n,   grid->mu.n,     grid->phi.n,
-                      at->depth->tau, grid->mu.value, grid->phi.value};
-    double start = omp_get_wtime();
-    int rc = sweep_solve(worker, at, &a->refusal);
+static int solve_radiance(const sweep_worker *worker, const sweep_unit *unit,
+                          double mu0, answer *a) {
+    pps_grid where = {unit->depth.n,     unit->mu.n,     unit->phi.n,
+                      unit->depth.value, unit->mu.value, unit->phi.value};
+    double start = system_seconds();
+    int rc = sweep_solve(worker, unit->thickness, mu0, &a->refusal);
 
     if (rc != CLI_DONE || a->refusal)
         return rc;
@@ -52,11 +36,11 @@ static int solve_radiance(const sweep_task *task, const sweep_worker *worker,
     }
     rc = sweep_judge(pps_model_radiance(worker->model, &where, a->radiance),
                      &a->refusal);
-    a->seconds = omp_get_wtime() - start;
+    a->seconds = system_seconds() - start;
     if (rc != CLI_DONE || a->refusal)
         return rc;
     pps_model_query(worker->model, &a->info);
-    for (size_t i = 0; i < n_radiances(grid, at); i++) {
+    for (size_t i = 0; i < n_radiances(unit); i++) {
         if (!isfinite(a->radiance[i]))
             a->refusal = "the result is not a finite number";
     }
@@ -64,14 +48,14 @@ static int solve_radiance(const sweep_task *task, const sweep_worker *worker,
 }
 
 /* Diffuse fluxes out of the slab; NAN where there are none. */
-static int solve_fluxes(const sweep_worker *worker, const sweep_case *at, answer *a) {
-    double tau[2] = {0, at->thickness};
+static int solve_fluxes(const sweep_worker *worker, const sweep_unit *unit, answer *a) {
+    double tau[2] = {0, unit->thickness};
     pps_flux flux[2];
-    size_t n = isinf(at->thickness) ? 1 : 2;
+    size_t n = isinf(unit->thickness) ? 1 : 2;
     const char *refusal;
     int rc;
 
-    a->reflected = a->transmitted = CSV_EMPTY;
+    a->reflected = a->transmitted = (double)NAN;
     if (a->refusal || !worker->method->fluxes)
         return CLI_DONE;
     rc = sweep_judge(pps_model_flux(worker->model, n, tau, flux), &refusal);
@@ -83,17 +67,17 @@ static int solve_fluxes(const sweep_worker *worker, const sweep_case *at, answer
     return CLI_DONE;
 }
 
-static int solve(const sweep_task *task, const sweep_worker *worker,
-                 const sweep_case *at, answer *a) {
-    int rc = solve_radiance(task, worker, at, a);
+static int solve(const sweep_worker *worker, const sweep_unit *unit, double mu0,
+                 answer *a) {
+    int rc = solve_radiance(worker, unit, mu0, a);
 
-    return rc == CLI_DONE ? solve_fluxes(worker, at, a) : rc;
+    return rc == CLI_DONE ? solve_fluxes(worker, unit, a) : rc;
 }
 
 double compare_relative(double x, double whole) {
     if (whole > 0)
         return x / whole;
-    return x == 0 ? 0 : CSV_EMPTY;
+    return x == 0 ? 0 : (double)NAN;
 }
 
 /* Means over the directions at depth k: of the squared difference, of the exact. */
@@ -126,9 +110,9 @@ void compare_fields(const case_grid *grid, size_t n_depths, const double *got,
         c->max_abs = fmax(c->max_abs, fabs(got[i] - want[i]));
 }
 
-static void compare(const case_grid *grid, const sweep_case *at, const answer *a,
+static void compare(const case_grid *grid, const sweep_unit *unit, const answer *a,
                     const answer *exact, comparison *c) {
-    compare_fields(grid, at->depth->n, a->radiance, exact->radiance, c);
+    compare_fields(grid, unit->depth.n, a->radiance, exact->radiance, c);
     c->reflectance_error =
         compare_relative(fabs(a->reflected - exact->reflected), exact->reflected);
     c->transmittance_error =
@@ -136,55 +120,80 @@ static void compare(const case_grid *grid, const sweep_case *at, const answer *a
     c->seconds = a->seconds;
 }
 
-static void judge(const sweep_task *task, const sweep_worker *worker,
-                  const sweep_case *at, const answer *a, const answer *exact,
-                  verdict *v) {
-    *v = (verdict){.answered = !a->refusal, .info = a->info};
-    if (a->refusal || exact->refusal) {
-        v->result.refused_by = a->refusal ? worker->method : task->reference;
-        v->result.refusal = a->refusal ? a->refusal : exact->refusal;
-    } else {
-        compare(task->grid, at, a, exact, &v->result);
-    }
+/* What was used goes into the record, unless it was refused. */
+static int note(const sweep_worker *worker, const answer *a, sweep_tile *t) {
+    return a->refusal ? CLI_DONE : record_used(&t->record, worker->method, &a->info);
 }
 
-static int evaluate(const sweep_task *task, const sweep_worker *workers,
-                    const sweep_case *at, void *block) {
-    size_t n = n_radiances(task->grid, at), n_methods = task->grid->n_methods;
-    double *radiance = malloc(2 * n * sizeof *radiance);
+/* All methods on one case; radiance has room for two fields. */
+static int compare_case(const sweep_station *own, const sweep_unit *unit, double mu0,
+                        double *radiance, comparison *c, sweep_tile *t) {
+    size_t n_methods = own->task->grid->n_methods;
+    const sweep_worker *reference = &own->workers[n_methods];
     answer exact = {.radiance = radiance};
-    verdict *v = block;
-    int rc;
+    int rc = solve(reference, unit, mu0, &exact);
 
-    if (!radiance)
-        return cli_no_memory();
-    rc = solve(task, &workers[n_methods], at, &exact);
-    v[n_methods] = (verdict){.answered = !exact.refusal, .info = exact.info};
     for (size_t i = 0; i < n_methods && rc == CLI_DONE; i++) {
-        answer a = {.radiance = radiance + n};
-        rc = solve(task, &workers[i], at, &a);
-        judge(task, &workers[i], at, &a, &exact, &v[i]);
+        answer a = {.radiance = radiance + n_radiances(unit)};
+        rc = solve(&own->workers[i], unit, mu0, &a);
+        c[i] = (comparison){.refused_by = own->workers[i].method, .refusal = a.refusal};
+        if (!a.refusal && exact.refusal)
+            c[i] = (comparison){reference->method, .refusal = exact.refusal};
+        if (!c[i].refusal)
+            compare(own->task->grid, unit, &a, &exact, &c[i]);
+        if (rc == CLI_DONE)
+            rc = note(&own->workers[i], &a, t);
+    }
+    return rc == CLI_DONE ? note(reference, &exact, t) : rc;
+}
+
+int compare_unit(const sweep_station *own, const sweep_unit *unit, comparison *c,
+                 sweep_tile *t) {
+    double *radiance = malloc(2 * n_radiances(unit) * sizeof *radiance);
+    int rc = radiance ? CLI_DONE : cli_no_memory();
+
+    for (size_t b = 0; b < unit->mu0.n && rc == CLI_DONE; b++) {
+        rc = compare_case(own, unit, unit->mu0.value[b], radiance,
+                          c + b * own->task->grid->n_methods, t);
+        if (rc == CLI_DONE && !sweep_go_on(own))
+            rc = CLI_FAILED;
     }
     free(radiance);
     return rc;
 }
 
-/* From the order of tiles, all methods a case, to the order of rows. */
-static int emit(const sweep_task *task, const sweep_worker *workers,
-                const sweep_case *at, const void *block) {
-    const verdict *v = block;
-    compare_job *job = task->context;
-    size_t n_methods = task->grid->n_methods;
-    size_t n_cases = compare_count(task->grid) / n_methods;
-    int rc = CLI_DONE;
+/* ---- all at once, in memory ---- */
 
-    for (size_t i = 0; i <= n_methods && rc == CLI_DONE; i++) {
-        if (v[i].answered)
-            rc = output_used(job->out, workers[i].method, &v[i].info);
-        if (i < n_methods)
-            job->result[i * n_cases + at->index] = v[i].result;
+static int evaluate(const sweep_station *own, const sweep_unit *unit, double *values,
+                    sweep_tile *t) {
+    const case_grid *grid = own->task->grid;
+    comparison *result = own->task->context;
+    size_t n_cases = compare_count(grid) / grid->n_methods;
+    size_t i_case = (unit->i_albedo * grid->g.n + unit->i_g) * grid->thickness.n;
+    comparison *c = malloc(unit->mu0.n * grid->n_methods * sizeof *c);
+    int rc = c ? compare_unit(own, unit, c, t) : cli_no_memory();
+
+    (void)values;
+    i_case = (i_case + unit->i_thickness) * grid->mu0.n + unit->mu0.first;
+    for (size_t b = 0; b < unit->mu0.n && rc == CLI_DONE; b++) {
+        for (size_t i = 0; i < grid->n_methods; i++)
+            result[i * n_cases + i_case + b] = c[b * grid->n_methods + i];
     }
+    free(c);
     return rc;
+}
+
+static int render_nothing(const sweep_station *own, const sweep_unit *unit,
+                          const double *values, sweep_tile *t) {
+    (void)own;
+    (void)unit;
+    (void)values;
+    (void)t;
+    return CLI_DONE;
+}
+
+static int add_record(void *context, const sweep_tile *t) {
+    return record_add(context, &t->record);
 }
 
 size_t compare_count(const case_grid *grid) {
@@ -192,14 +201,15 @@ size_t compare_count(const case_grid *grid) {
            grid->mu0.n;
 }
 
-int compare_run(const case_grid *grid, output *out, comparison *result) {
-    compare_job job = {out, result};
+int compare_run(const case_grid *grid, record *used, comparison *result) {
     sweep_task task = {.grid = grid,
                        .reference = pps_method_find("exact"),
-                       .block_size = (grid->n_methods + 1) * sizeof(verdict),
+                       .shape = ROWS_CASE,
                        .evaluate = evaluate,
-                       .emit = emit,
-                       .context = &job};
+                       .render = render_nothing,
+                       .context = result};
+    sweep_plan plan;
 
-    return sweep_run(&task);
+    plan_init(&plan, grid, task.shape);
+    return sweep_run(&task, &plan, 0, true, add_record, used);
 }

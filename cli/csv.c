@@ -4,28 +4,21 @@
 #include "csv.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli.h"
+#include "number.h"
 
 enum { BUFFER_SIZE = 1 << 16 };
 
 size_t csv_format(double x, char text[CSV_NUMBER_SIZE]) {
-    int length = 0;
+    size_t length = number_format(x, text);
 
-    text[0] = '\0';
-    if (isnan(x))
-        return 0;
-    for (int digits = 15; digits <= 17; digits++) {
-        length = snprintf(text, CSV_NUMBER_SIZE, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
-    }
-    return (size_t)length;
+    text[length] = '\0';
+    return length;
 }
 
 static int unwritable(const char *path) {

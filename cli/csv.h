@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "number.h"
+
 typedef struct {
     FILE *file;
     const char *path; /* NULL for standard output */
@@ -19,7 +21,7 @@ typedef struct {
     bool row_begun;
 } csv_file;
 
-enum { CSV_NUMBER_SIZE = 32 };
+enum { CSV_NUMBER_SIZE = NUMBER_SIZE };
 
 #define CSV_EMPTY ((double)NAN) /* the number that is an empty field */
 

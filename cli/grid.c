@@ -10,11 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <omp.h>
-
 #include "cli.h"
 #include "csv.h"
 #include "directions.h"
+#include "system.h"
 #include "values.h"
 
 enum {
@@ -295,7 +294,6 @@ static int read_solver(const invocation *call, pps_options *options) {
     return rc;
 }
 
-/* A count in digits only, lo to hi. */
 static int read_sampling(const invocation *call, pps_options *options) {
     int rc = value_count(call, OPT_PHOTONS, 1, 1000000000000, &options->photons);
 
@@ -303,26 +301,11 @@ static int read_sampling(const invocation *call, pps_options *options) {
                           : rc;
 }
 
-static int read_threads(const invocation *call, int *out) {
-    const char *text = call->text[OPT_JOBS];
-
-    *out = omp_get_num_procs();
-    if (text && !value_whole(text, 1, MAX_THREADS, out))
-        return cli_usage(
-            "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 "
-            "to %d",
-            text, MAX_THREADS);
-    return CLI_DONE;
-}
-
 static int read_running(const invocation *call, case_grid *grid) {
-    int progress = 0, rc = read_threads(call, &grid->threads);
+    int rc = value_threads(call, &grid->threads);
 
     if (rc == CLI_DONE)
-        rc = value_choice(call, OPT_PROGRESS, &progress);
-    grid->progress = progress == 0 ? isatty(STDERR_FILENO) : progress == 1;
-    if (rc == CLI_DONE && option_given(call, OPT_RESUME))
-        return cli_usage("--resume is not there yet; run without it");
+        rc = value_progress(call, &grid->progress);
     return rc;
 }
 

@@ -14,6 +14,7 @@
 
 #include "cli.h"
 #include "commands.h"
+#include "team.h"
 #include "usage.h"
 
 static int (*const commands[SUB_COUNT])(const invocation *) = {
@@ -116,8 +117,11 @@ int main(int argc, char **argv) {
     int rc;
 
     signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error with its message */
-    openblas_set_num_threads(1); /* the threads are ours: one a tile */
-    rc = dispatch(argc, argv);
+    openblas_set_num_threads(1); /* the threads are ours */
+    rc = team_begin(&argc, &argv);
+    if (rc == CLI_DONE)
+        rc = dispatch(argc, argv);
+    team_end();
     if (fflush(stdout) != 0 && rc != CLI_FAILED)
         return cli_failed("cannot write standard output: %s", strerror(errno));
     return rc;

@@ -8,7 +8,6 @@
 #include "metadata.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,49 +18,6 @@
 
 #include "cli.h"
 #include "columns.h"
-
-static bool same_setting(const used_count *count, const pps_method *method,
-                         const pps_info *info) {
-    return count->method == method && count->streams == info->streams &&
-           count->nodes == info->nodes && count->delta_m == info->delta_m;
-}
-
-static void widen(used_log *log, const pps_info *info) {
-    if (log->n == 0 || info->orders < log->min_orders)
-        log->min_orders = info->orders;
-    if (log->n == 0 || info->orders > log->max_orders)
-        log->max_orders = info->orders;
-    if (!isnan(info->error_estimate)) {
-        log->worst_error = fmax(log->worst_error, info->error_estimate);
-        log->estimated = true;
-    }
-}
-
-int used_add(used_log *log, const pps_method *method, const pps_info *info) {
-    used_count *count;
-
-    if (info->streams == 0)
-        return CLI_DONE;
-    widen(log, info);
-    for (size_t i = 0; i < log->n; i++) {
-        if (same_setting(&log->count[i], method, info)) {
-            log->count[i].outputs++;
-            return CLI_DONE;
-        }
-    }
-    count = realloc(log->count, (log->n + 1) * sizeof *count);
-    if (!count)
-        return cli_no_memory();
-    log->count = count;
-    count[log->n++] =
-        (used_count){method, info->streams, info->nodes, info->delta_m, 1};
-    return CLI_DONE;
-}
-
-void used_free(used_log *log) {
-    free(log->count);
-    *log = (used_log){0};
-}
 
 /* A file name or argument need not be UTF-8, JSON must be. */
 static json_t *json_text(const char *text) {
@@ -142,13 +98,13 @@ static json_t *json_count(const used_count *count) {
 }
 
 /* Streams, orders, nodes and scaling over all outputs of the run. */
-static json_t *json_used(const used_log *log) {
+static json_t *json_used(const record *done) {
     json_t *counts = json_array(), *nodes = json_array(), *scaled = json_array();
-    json_t *worst = log->estimated ? json_real(log->worst_error) : NULL;
-    int lo = log->count[0].streams, hi = lo;
+    json_t *worst = done->estimated ? json_real(done->worst_error) : NULL;
+    int lo = done->used[0].streams, hi = lo;
 
-    for (size_t i = 0; i < log->n; i++) {
-        const used_count *count = &log->count[i];
+    for (size_t i = 0; i < done->n_used; i++) {
+        const used_count *count = &done->used[i];
         lo = count->streams < lo ? count->streams : lo;
         hi = count->streams > hi ? count->streams : hi;
         add_word(nodes, nodes_name(count->nodes));
@@ -157,7 +113,7 @@ static json_t *json_used(const used_log *log) {
     }
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}",
                      "streams", json_range(lo, hi),
-                     "orders", json_range(log->min_orders, log->max_orders),
+                     "orders", json_range(done->min_orders, done->max_orders),
                      "nodes", nodes,
                      "delta_m", scaled,
                      "worst_error_estimate", worst ? worst : json_null(),
@@ -165,16 +121,16 @@ static json_t *json_used(const used_log *log) {
 }
 
 static json_t *json_notes(const invocation *call, const char *date,
-                          const used_log *used, size_t rows, size_t refused_rows) {
+                          const record *done) {
     return json_pack("{s:s, s:s, s:s, s:o, s:s, s:I, s:I, s:o}",
                      "program", "ppscat",
                      "version", pps_version(),
                      "subcommand", subcommand_table[call->subcommand].name,
                      "command", json_command(call),
                      "date", date,
-                     "rows", (json_int_t)rows,
-                     "refused_rows", (json_int_t)refused_rows,
-                     "used", used->n ? json_used(used) : json_null());
+                     "rows", (json_int_t)done->rows,
+                     "refused_rows", (json_int_t)done->refused_rows,
+                     "used", done->n_used ? json_used(done) : json_null());
 }
 
 static json_t *json_sidecar(const char *csv_path, const invocation *call,
@@ -194,13 +150,13 @@ static json_t *json_sidecar(const char *csv_path, const invocation *call,
 }
 /* clang-format on */
 
-static void iso_date(char *text, size_t size) {
+void metadata_date(char text[DATE_SIZE]) {
     time_t now = time(NULL);
     struct tm utc;
 
     text[0] = '\0';
     if (gmtime_r(&now, &utc))
-        strftime(text, size, "%Y-%m-%dT%H:%M:%SZ", &utc);
+        strftime(text, DATE_SIZE, "%Y-%m-%dT%H:%M:%SZ", &utc);
 }
 
 /* Write to `part`, then give it its name. */
@@ -220,17 +176,27 @@ static int write_json(const json_t *json, const char *part, const char *path) {
     return CLI_FAILED;
 }
 
-int metadata_write(const char *csv_path, const invocation *call, const used_log *used,
-                   size_t rows, size_t refused_rows) {
+char *metadata_notes(const invocation *call, const record *done) {
+    char date[DATE_SIZE];
+    json_t *json;
+    char *text;
+
+    metadata_date(date);
+    json = json_notes(call, date, done);
+    text = json ? json_dumps(json, JSON_COMPACT | JSON_PRESERVE_ORDER) : NULL;
+    json_decref(json);
+    return text;
+}
+
+int metadata_write(const char *csv_path, const invocation *call, const record *done) {
     size_t size = strlen(csv_path) + sizeof "-metadata.json.part";
     char *path = malloc(size), *part = malloc(size);
-    char date[32];
+    char date[DATE_SIZE];
     json_t *json;
     int rc;
 
-    iso_date(date, sizeof date);
-    json = json_sidecar(csv_path, call, date,
-                        json_notes(call, date, used, rows, refused_rows));
+    metadata_date(date);
+    json = json_sidecar(csv_path, call, date, json_notes(call, date, done));
     if (path && part && json) {
         snprintf(path, size, "%s-metadata.json", csv_path);
         snprintf(part, size, "%s-metadata.json.part", csv_path);

@@ -1,9 +1,13 @@
-/* What a run leaves: a CSV file or standard output, its sidecar, and the refused rows.
+/* What a short run leaves: a CSV file or standard output, its sidecar, and the refused rows.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output.h"
 
+#include <errno.h>
+#include <libgen.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "columns.h"
@@ -22,42 +26,16 @@ int output_open(output *out, const invocation *call) {
     return CLI_DONE;
 }
 
-static int count_refusal(output *out, const pps_method *method, const char *reason) {
-    refused_count *grown;
-
-    out->refused_rows++;
-    for (size_t i = 0; i < out->n_refusals; i++) {
-        if (out->refusals[i].method == method && out->refusals[i].reason == reason) {
-            out->refusals[i].rows++;
-            return CLI_DONE;
-        }
-    }
-    grown = realloc(out->refusals, (out->n_refusals + 1) * sizeof *grown);
-    if (!grown)
-        return cli_no_memory();
-    out->refusals = grown;
-    grown[out->n_refusals++] = (refused_count){method, reason, 1};
-    return CLI_DONE;
-}
-
 int output_end_row(output *out, const pps_method *method, const char *reason) {
     csv_end_row(&out->csv);
-    out->rows++;
+    out->record.rows++;
     if (csv_broken(&out->csv))
         return CLI_FAILED; /* csv_finish says why */
-    return reason ? count_refusal(out, method, reason) : CLI_DONE;
+    return reason ? record_refused(&out->record, method, reason, 1) : CLI_DONE;
 }
 
 int output_used(output *out, const pps_method *method, const pps_info *info) {
-    return used_add(&out->used, info->used ? info->used : method, info);
-}
-
-static void report_refusals(const output *out) {
-    for (size_t i = 0; i < out->n_refusals; i++) {
-        const refused_count *r = &out->refusals[i];
-        cli_note("method '%s' refused %zu row%s: %s", r->method->name, r->rows,
-                 r->rows == 1 ? "" : "s", r->reason);
-    }
+    return record_used(&out->record, method, info);
 }
 
 /* The file is complete: describe it, then let it appear. */
@@ -65,21 +43,32 @@ static int publish(output *out) {
     int rc = csv_finish(&out->csv);
 
     if (rc == CLI_DONE && out->csv.part)
-        rc = metadata_write(out->csv.path, out->call, &out->used, out->rows,
-                            out->refused_rows);
+        rc = metadata_write(out->csv.path, out->call, &out->record);
     return rc == CLI_DONE ? csv_publish(&out->csv) : rc;
 }
 
 int output_close(output *out, int rc) {
-    report_refusals(out);
+    record_report(&out->record);
     if (rc == CLI_DONE)
         rc = publish(out);
     else if (csv_broken(&out->csv))
         csv_finish(&out->csv);
-    if (rc == CLI_DONE && out->refused_rows)
+    if (rc == CLI_DONE && out->record.refused_rows)
         rc = CLI_REFUSED;
     csv_close(&out->csv);
-    used_free(&out->used);
-    free(out->refusals);
+    record_free(&out->record);
     return rc;
+}
+
+int output_writable(const char *path) {
+    char *folder = malloc(strlen(path) + 1);
+    bool good;
+
+    if (!folder)
+        return cli_no_memory();
+    good = access(dirname(strcpy(folder, path)), W_OK) == 0;
+    free(folder);
+    return good ? CLI_DONE
+                : cli_usage("--output: cannot write '%.200s': %s", path,
+                            strerror(errno));
 }

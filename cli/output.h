@@ -1,4 +1,5 @@
-/* What a run leaves: a CSV file or standard output, its sidecar, and the refused rows.
+/* What a short run leaves: a CSV file or standard output, its sidecar, and the refused
+ * rows. Sweeps, which are resumed, have files of their own (sweep_file.h).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_OUTPUT_H
@@ -8,20 +9,10 @@
 #include "metadata.h"
 #include "options.h"
 
-/* Rows that one method refused for one reason. */
-typedef struct {
-    const pps_method *method;
-    const char *reason;
-    size_t rows;
-} refused_count;
-
 typedef struct {
     csv_file csv;
     const invocation *call;
-    used_log used;
-    size_t n_refusals;
-    refused_count *refusals;
-    size_t rows, refused_rows;
+    record record;
 } output;
 
 /* Open what -o names and write the header row. CLI_USAGE where it cannot be written. */
@@ -32,6 +23,10 @@ int output_end_row(output *out, const pps_method *method, const char *reason);
 
 /* Note what a method used for an output; what `auto` picked counts as itself. */
 int output_used(output *out, const pps_method *method, const pps_info *info);
+
+/* Whether a file that is no CSV could be written there, before work is done for it;
+ * CLI_USAGE if not. */
+int output_writable(const char *path);
 
 /* Finish with rc, the outcome so far: report refusals, write the sidecar, name the
  * file. Returns the exit code. Nothing is left under the final name unless all went

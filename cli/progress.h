@@ -4,6 +4,7 @@
 #ifndef PPSCAT_CLI_PROGRESS_H
 #define PPSCAT_CLI_PROGRESS_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -12,13 +13,24 @@
 typedef struct {
     pthread_mutex_t lock;
     bool shown, terminal;
-    size_t done, total;
+    atomic_size_t done;
+    size_t total, before; /* before: done by an earlier run */
+    size_t told;
     double started, last; /* seconds */
 } progress_meter;
 
 void progress_start(progress_meter *meter, bool shown, size_t total);
 
-/* One more case is done. Safe from any thread. */
+/* So many are done already, by an earlier run. */
+void progress_resume(progress_meter *meter, size_t done);
+
+/* So many more cases are done. Safe from any thread. */
+void progress_count(progress_meter *meter, size_t cases);
+
+/* Show it, when that was long ago. Safe from any thread. */
+void progress_show(progress_meter *meter);
+
+/* Both, for one case. */
 void progress_step(progress_meter *meter);
 
 /* Leave the line clean for what follows. */

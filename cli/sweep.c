@@ -1,179 +1,225 @@
-/* The sweep engine: tiles shared among threads, answers in order.
- *
- * A thread fills a buffer with the first blocks of its tile. When its turn comes (the
- * ordered region), it hands them on and streams the rest, so memory stays bounded
- * however long the lists are.
+/* The engine: threads take tiles, the caller collects them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep.h"
 
-#include <assert.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "cli.h"
 #include "progress.h"
+#include "system.h"
+#include "team.h"
 
-enum { BUFFER_BYTES = 1 << 25 /* of a thread, when a block is smaller */ };
+static const double patience = 0.05;      /* seconds between looks at signals */
+static const double team_patience = 5e-4; /* ... at the other ranks */
+static const double last_wait = 0.5;      /* for threads when a signal has come */
 
-typedef struct {
+typedef struct sweep {
     const sweep_task *task;
-    size_t n_tiles, n_workers, n_cases; /* n_cases: of a tile */
-    size_t n_slots;                     /* blocks that fit the buffer of a thread */
+    const sweep_plan *plan;
+    queue queue;
     progress_meter progress;
-    atomic_int failed; /* CLI_FAILED once anything went wrong */
-    /* The tile that emits, and the threads that have left. OpenMP keeps both orders;
-     * these let the thread sanitizer, which does not see into it, know them too. */
-    atomic_size_t turn, left;
+    size_t n_threads;
+    pthread_t *thread;
+    atomic_size_t n_working;
 } sweep;
 
-/* What a thread works with. */
-typedef struct {
-    char *buffer;
-    sweep_worker *workers;
-    double albedo, g;
-    size_t tile;
-} station;
+/* ---- a thread at work ---- */
 
-static size_t at_least_one(size_t n) { return n ? n : 1; }
-
-static void plan(sweep *s, const sweep_task *task) {
-    const case_grid *grid = task->grid;
-    size_t n_media = grid->albedo.n * grid->g.n;
-
-    *s = (sweep){.task = task};
-    s->n_tiles = task->reference ? n_media : n_media * grid->n_methods;
-    s->n_workers = task->reference ? grid->n_methods + 1 : 1;
-    s->n_cases = grid->thickness.n * grid->mu0.n;
-    s->n_slots = at_least_one(BUFFER_BYTES / at_least_one(task->block_size));
-    if (s->n_slots > s->n_cases)
-        s->n_slots = s->n_cases;
+static int open_station(sweep_station *own, const sweep_task *task,
+                        const sweep_plan *plan) {
+    *own = (sweep_station){.task = task, .plan = plan, .medium = UINT64_MAX};
+    own->n_workers = task->reference ? task->grid->n_methods + 1 : 1;
+    own->workers = calloc(own->n_workers, sizeof *own->workers);
+    own->values =
+        malloc(((size_t)plan->unit_rows * task->n_values + 1) * sizeof *own->values);
+    return own->workers && own->values ? CLI_DONE : cli_no_memory();
 }
 
-static bool stopped(sweep *s) { return atomic_load(&s->failed) != CLI_DONE; }
-
-static void note_failure(sweep *s, int rc) {
-    if (rc != CLI_DONE)
-        atomic_store(&s->failed, rc);
+static void close_station(sweep_station *own) {
+    for (size_t i = 0; own->workers && i < own->n_workers; i++)
+        pps_model_free(own->workers[i].model);
+    free(own->workers);
+    free(own->values);
 }
 
-static const pps_method *worker_method(const sweep *s, size_t tile, size_t i) {
-    const case_grid *grid = s->task->grid;
+static const pps_method *method_of(const sweep_station *own, const sweep_unit *unit,
+                                   size_t i) {
+    const case_grid *grid = own->task->grid;
 
-    if (!s->task->reference)
-        return grid->method[tile / (grid->albedo.n * grid->g.n)];
-    return i < grid->n_methods ? grid->method[i] : s->task->reference;
+    if (unit->method)
+        return unit->method;
+    return i < grid->n_methods ? grid->method[i] : own->task->reference;
 }
 
-static int open_tile(const sweep *s, size_t tile, station *own) {
-    const case_grid *grid = s->task->grid;
-    pps_slab slab = {grid->albedo.value[tile / grid->g.n % grid->albedo.n],
-                     grid->g.value[tile % grid->g.n], grid->thickness.value[0]};
+/* Make the models of the unit's medium, unless they are there. */
+static int enter_medium(sweep_station *own, const sweep_unit *unit) {
+    pps_slab slab = {unit->albedo, unit->g, own->task->grid->thickness.value[0]};
     int rc = CLI_DONE;
 
-    own->albedo = slab.albedo;
-    own->g = slab.g;
-    for (size_t i = 0; i < s->n_workers; i++) {
+    if (own->medium == unit->medium)
+        return CLI_DONE;
+    own->medium = unit->medium;
+    for (size_t i = 0; i < own->n_workers && rc == CLI_DONE; i++) {
         sweep_worker *worker = &own->workers[i];
-        *worker = (sweep_worker){.method = worker_method(s, tile, i), .refusal = NULL};
-        if (rc == CLI_DONE)
-            rc = sweep_judge(
-                pps_model_create(worker->method, &slab, &grid->options, &worker->model),
-                &worker->refusal);
+        pps_model_free(worker->model);
+        *worker = (sweep_worker){.method = method_of(own, unit, i)};
+        rc = sweep_judge(pps_model_create(worker->method, &slab,
+                                          &own->task->grid->options, &worker->model),
+                         &worker->refusal);
     }
     return rc;
 }
 
-static void close_tile(const sweep *s, station *own) {
-    for (size_t i = 0; own->workers && i < s->n_workers; i++) {
-        pps_model_free(own->workers[i].model);
-        own->workers[i].model = NULL;
+static int compute_tile(void *station, sweep_tile *t) {
+    sweep_station *own = station;
+    int rc = CLI_DONE;
+
+    for (uint64_t i = t->first; i < t->first + t->n && rc == CLI_DONE; i++) {
+        sweep_unit unit = plan_unit(own->plan, i);
+        if (own->of && queue_stopped(&own->of->queue))
+            return CLI_FAILED;
+        rc = enter_medium(own, &unit);
+        if (rc == CLI_DONE)
+            rc = own->task->evaluate(own, &unit, own->values, t);
+        if (own->of && queue_stopped(&own->of->queue))
+            return CLI_FAILED; /* not all of the unit is done */
+        if (rc == CLI_DONE)
+            rc = own->task->render(own, &unit, own->values, t);
+        t->cases += unit.mu0.n;
     }
+    return rc;
 }
 
-static sweep_case case_at(const sweep *s, const station *own, size_t i) {
-    const case_grid *grid = s->task->grid;
-    size_t i_thickness = i / grid->mu0.n;
+static void *work(void *argument) {
+    sweep *s = argument;
+    sweep_station own;
+    int rc = open_station(&own, s->task, s->plan);
+    sweep_tile *t;
 
-    return (sweep_case){.albedo = own->albedo,
-                        .g = own->g,
-                        .thickness = grid->thickness.value[i_thickness],
-                        .mu0 = grid->mu0.value[i % grid->mu0.n],
-                        .depth = &grid->depth[i_thickness],
-                        .index = own->tile * s->n_cases + i};
+    own.of = s;
+    if (rc != CLI_DONE)
+        queue_stop(&s->queue, rc);
+    while ((t = queue_take(&s->queue)))
+        queue_put(&s->queue, t, compute_tile(&own, t));
+    close_station(&own);
+    atomic_fetch_sub(&s->n_working, 1);
+    return NULL;
 }
 
-static void evaluate(sweep *s, const station *own, size_t i, void *block) {
-    sweep_case at = case_at(s, own, i);
-
-    if (stopped(s))
-        return;
-    note_failure(s, s->task->evaluate(s->task, own->workers, &at, block));
-    progress_step(&s->progress);
+bool sweep_go_on(const sweep_station *own) {
+    if (!own->of)
+        return true;
+    progress_count(&own->of->progress, 1);
+    return !queue_stopped(&own->of->queue);
 }
 
-static void emit(sweep *s, const station *own, size_t i, const void *block) {
-    sweep_case at = case_at(s, own, i);
+/* ---- the collector ---- */
 
-    if (!stopped(s))
-        note_failure(s, s->task->emit(s->task, own->workers, &at, block));
-}
-
-static void begin_tile(sweep *s, size_t tile, station *own) {
-    own->tile = tile;
-    if (stopped(s) || !own->buffer || !own->workers)
-        return;
-    note_failure(s, open_tile(s, tile, own));
-    for (size_t i = 0; i < s->n_slots; i++)
-        evaluate(s, own, i, own->buffer + i * s->task->block_size);
-}
-
-/* Once every earlier tile is out. */
-static void finish_tile(sweep *s, station *own) {
-    assert(atomic_load(&s->turn) == own->tile);
-    for (size_t i = 0; i < s->n_slots; i++)
-        emit(s, own, i, own->buffer + i * s->task->block_size);
-    for (size_t i = s->n_slots; i < s->n_cases && !stopped(s); i++) {
-        evaluate(s, own, i, own->buffer);
-        emit(s, own, i, own->buffer);
+static int start_threads(sweep *s) {
+    s->thread = calloc(s->n_threads, sizeof *s->thread);
+    if (!s->thread)
+        return cli_no_memory();
+    system_shield(true); /* signals come to the collector */
+    for (size_t i = 0; i < s->n_threads; i++) {
+        atomic_fetch_add(&s->n_working, 1);
+        if (pthread_create(&s->thread[i], NULL, work, s) != 0) {
+            atomic_fetch_sub(&s->n_working, 1);
+            s->n_threads = i;
+        }
     }
-    atomic_store(&s->turn, own->tile + 1);
-    close_tile(s, own);
+    system_shield(false);
+    return s->n_threads ? CLI_DONE : cli_failed("no thread can be started");
 }
 
-static void work(sweep *s) {
-    station own = {.buffer = malloc(s->n_slots * at_least_one(s->task->block_size)),
-                   .workers = calloc(s->n_workers, sizeof *own.workers)};
+/* All that is ready, in order. */
+static int deliver_ready(sweep *s, double wait, sweep_sink *deliver, void *context) {
+    int rc = CLI_DONE;
+    sweep_tile *t = queue_collect(&s->queue, wait);
 
-    if (!own.buffer || !own.workers)
-        note_failure(s, cli_no_memory());
-#pragma omp for ordered schedule(dynamic, 1)
-    for (size_t tile = 0; tile < s->n_tiles; tile++) {
-        begin_tile(s, tile, &own);
-#pragma omp ordered
-        finish_tile(s, &own);
+    while (t && rc == CLI_DONE) {
+        rc = deliver(context, t);
+        queue_release(&s->queue, t);
+        t = rc == CLI_DONE ? queue_collect(&s->queue, 0) : NULL;
     }
-    free(own.buffer);
-    free(own.workers);
-    atomic_fetch_add(&s->left, 1);
+    return rc;
 }
 
-static int n_threads(const sweep *s) {
-    size_t threads = (size_t)s->task->grid->threads;
+/* Returns how delivering went. */
+static int collect(sweep *s, bool alone, sweep_sink *deliver, void *context) {
+    bool team = !alone && team_size() > 1;
+    int rc = CLI_DONE;
 
-    return (int)(threads < s->n_tiles ? threads : s->n_tiles);
+    while (rc == CLI_DONE && !queue_finished(&s->queue) && !queue_stopped(&s->queue)) {
+        rc = deliver_ready(s, team ? team_patience : patience, deliver, context);
+        if (team)
+            progress_count(&s->progress, team_serve(&s->queue));
+        progress_show(&s->progress);
+        if (rc != CLI_DONE || system_signal())
+            queue_stop(&s->queue, CLI_FAILED);
+    }
+    return rc == CLI_DONE ? deliver_ready(s, 0, deliver, context) : rc;
 }
 
-int sweep_run(const sweep_task *task) {
-    sweep s;
+/* Let threads end; false when, after a signal, one is too deep in a case to wait for. */
+static bool join_threads(sweep *s) {
+    double until = system_seconds() + last_wait;
 
-    plan(&s, task);
-    progress_start(&s.progress, task->grid->progress, s.n_tiles * s.n_cases);
-#pragma omp parallel num_threads(n_threads(&s))
-    work(&s);
-    progress_end(&s.progress);
-    assert(atomic_load(&s.left) >= 1);
-    return atomic_load(&s.failed);
+    while (system_signal() && atomic_load(&s->n_working) > 0) {
+        struct timespec pause = {0, 5000000};
+        if (system_seconds() > until)
+            return false;
+        nanosleep(&pause, NULL);
+    }
+    for (size_t i = 0; i < s->n_threads; i++)
+        pthread_join(s->thread[i], NULL);
+    return true;
+}
+
+static void end(sweep *s) {
+    if (!join_threads(s))
+        return; /* what they use stays; the process is about to end */
+    queue_free(&s->queue);
+    free(s->thread);
+    free(s);
+}
+
+int sweep_run(const sweep_task *task, const sweep_plan *plan, uint64_t first_unit,
+              bool alone, sweep_sink *deliver, void *context) {
+    sweep *s = calloc(1, sizeof *s);
+    size_t helpers = alone ? 0 : (size_t)team_size() - 1;
+    int rc;
+
+    if (!s)
+        return cli_no_memory();
+    s->task = task;
+    s->plan = plan;
+    s->n_threads = (size_t)task->grid->threads;
+    if (s->n_threads > plan->n_units - first_unit && plan->n_units > first_unit)
+        s->n_threads = (size_t)(plan->n_units - first_unit);
+    rc = queue_init(&s->queue, plan, first_unit, s->n_threads + helpers);
+    progress_start(&s->progress, task->grid->progress, (size_t)plan->cases);
+    progress_resume(&s->progress, (size_t)((double)plan->cases * (double)first_unit /
+                                           (double)plan->n_units));
+    if (rc == CLI_DONE)
+        rc = start_threads(s);
+    if (rc == CLI_DONE)
+        rc = collect(s, alone, deliver, context);
+    if (rc != CLI_DONE)
+        queue_stop(&s->queue, rc);
+    progress_end(&s->progress);
+    rc = atomic_load(&s->queue.outcome);
+    end(s);
+    return rc;
+}
+
+int sweep_help(const sweep_task *task, const sweep_plan *plan) {
+    sweep_station own;
+    int rc = open_station(&own, task, plan);
+
+    rc = team_help(rc, compute_tile, &own);
+    close_station(&own);
+    return rc;
 }
 
 int sweep_judge(pps_status status, const char **refusal) {
@@ -181,10 +227,10 @@ int sweep_judge(pps_status status, const char **refusal) {
     return status == PPS_ERR_MEMORY ? cli_no_memory() : CLI_DONE;
 }
 
-int sweep_solve(const sweep_worker *worker, const sweep_case *at,
+int sweep_solve(const sweep_worker *worker, double thickness, double mu0,
                 const char **refusal) {
     *refusal = worker->refusal;
     if (worker->refusal)
         return CLI_DONE;
-    return sweep_judge(pps_model_solve(worker->model, at->thickness, at->mu0), refusal);
+    return sweep_judge(pps_model_solve(worker->model, thickness, mu0), refusal);
 }

@@ -4,12 +4,13 @@
 #include "tree_answer.h"
 
 #include <math.h>
-#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
 #include "progress.h"
+#include "system.h"
 
 static const tree_method references[] = {
     {TREE_TRACE, "mc", "Monte Carlo: light traced from sun and sky, all bounces", "",
@@ -37,7 +38,7 @@ size_t tree_method_find(const char *name) {
     return i;
 }
 
-/* ---- lists of names ---- */
+/* ---- what was asked ---- */
 
 /* The number of a name among n; false where there is none of it. */
 static bool find_name(const char *word, size_t length, size_t n,
@@ -89,6 +90,18 @@ static int read_names(const invocation *call, option_id id, size_t n,
     }
 }
 
+/* The G-factor is for those that take one; somebody must. */
+static int check_compensation(const invocation *call, const tree_asked *asked) {
+    bool any = strcmp(option_text(call, OPT_COMPENSATE), "none") == 0;
+
+    for (size_t i = 0; i < asked->n_methods; i++)
+        any = any || asked->method[i].compensates;
+    return any ? CLI_DONE
+               : cli_usage("--compensate: '%.60s' is for models that take a G-factor; "
+                           "--model '%.60s' names none (ppscat tree models)",
+                           call->text[OPT_COMPENSATE], option_text(call, OPT_MODEL));
+}
+
 int tree_asked_read(const invocation *call, tree_asked *out) {
     const char *methods[NAMES_MAX], *components[TREE_COMPONENTS];
     size_t method[NAMES_MAX], component[NAMES_MAX];
@@ -114,7 +127,7 @@ int tree_asked_read(const invocation *call, tree_asked *out) {
         out->method[i] = tree_method_at(method[i]);
     for (size_t i = 0; i < out->n_components; i++)
         out->component[i] = &tree_components[component[i]];
-    return CLI_DONE;
+    return check_compensation(call, out);
 }
 
 void tree_asked_free(tree_asked *asked) {
@@ -124,19 +137,13 @@ void tree_asked_free(tree_asked *asked) {
 
 /* ---- running ---- */
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
-
 static bool keep_going(void *user, uint64_t done, uint64_t total) {
     progress_meter *meter = user;
 
     meter->total = (size_t)total;
-    progress_set(meter, (size_t)done);
-    return !interrupted;
+    progress_count(meter, (size_t)done - atomic_load(&meter->done));
+    progress_show(meter);
+    return !system_signal();
 }
 
 /* Monte Carlo, with a progress line, stopped by an interrupt. */
@@ -146,7 +153,7 @@ static pps_status run_reference(const tree_work *work, const tree_method *method
     progress_meter meter;
     pps_status status;
 
-    signal(SIGINT, on_interrupt);
+    system_watch_signals();
     progress_start(&meter, work->settings->progress, (size_t)options.rays);
     options.sources = sources;
     options.progress = keep_going;
@@ -156,7 +163,6 @@ static pps_status run_reference(const tree_work *work, const tree_method *method
                  : pps_gather_light(work->scene, 0, NULL,
                                     work->settings->gather_samples, &options, out);
     progress_end(&meter);
-    signal(SIGINT, SIG_DFL);
     return status;
 }
 
@@ -178,6 +184,8 @@ static pps_status run_model(tree_work *work, const pps_light_model *model,
     pps_status status = model->per_leaf ? PPS_OK : need_cells(work);
 
     options.sources = sources;
+    if (!model->compensates)
+        options.compensate = PPS_COMPENSATE_NONE;
     if (status)
         return status;
     if (model->per_leaf)
@@ -198,11 +206,6 @@ int tree_answer_find(tree_work *work, const tree_method *method,
     *out = (tree_answer){0};
     if (!sources) {
         *why = "the model does not know this light";
-        return CLI_REFUSED;
-    }
-    if (work->settings->light.compensate && !method->compensates &&
-        method->kind == TREE_MODEL) {
-        *why = "the model takes no --compensate";
         return CLI_REFUSED;
     }
     status = method->kind == TREE_MODEL

@@ -5,14 +5,9 @@
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
-
-#include <omp.h>
 
 #include "cli.h"
 #include "values.h"
-
-enum { MAX_THREADS = 4096 };
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
@@ -23,24 +18,6 @@ const tree_component tree_components[TREE_COMPONENTS] = {
     {"sky", PPS_SKY},
     {"sky-indirect", PPS_SKY_INDIRECT},
 };
-
-int tree_threads(const invocation *call, int *out) {
-    const char *text = call->text[OPT_JOBS];
-
-    *out = omp_get_num_procs();
-    if (text && !value_whole(text, 1, MAX_THREADS, out))
-        return cli_usage(
-            "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 to %d",
-            text, MAX_THREADS);
-    return CLI_DONE;
-}
-
-static int read_progress(const invocation *call, bool *out) {
-    int choice = 0, rc = value_choice(call, OPT_PROGRESS, &choice);
-
-    *out = choice == 0 ? isatty(STDERR_FILENO) : choice == 1;
-    return rc;
-}
 
 static int read_bounces(const invocation *call, int *out) {
     uint64_t bounces = 0;
@@ -65,8 +42,8 @@ int tree_settings_read(const invocation *call, tree_settings *out) {
 
     *out = (tree_settings){0};
     if ((rc = value_count(call, OPT_SEED, 0, UINT64_MAX, &out->seed)) ||
-        (rc = tree_threads(call, &out->threads)) ||
-        (rc = read_progress(call, &out->progress)) ||
+        (rc = value_threads(call, &out->threads)) ||
+        (rc = value_progress(call, &out->progress)) ||
         (rc = value_count(call, OPT_CELLS, 1, 256, &cells)) ||
         (rc = value_count(call, OPT_RAYS, 1, 1000000000000, &rays)) ||
         (rc = value_count(call, OPT_SAMPLES, 1, 1000000, &samples)) ||

@@ -23,9 +23,6 @@ typedef struct {
 
 int tree_settings_read(const invocation *call, tree_settings *out);
 
-/* --jobs, or all cores. */
-int tree_threads(const invocation *call, int *out);
-
 /* The scene that the operand names, with its sun where --sun puts it; CLI_USAGE when there
  * is none or it cannot be read. */
 int tree_scene_open(const invocation *call, pps_scene **out);

@@ -9,9 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "csv.h"
+#include "system.h"
 
 /* What a number may be. */
 typedef struct {
@@ -148,4 +150,24 @@ int value_pair(const invocation *call, option_id id, double out[2]) {
     }
     return cli_usage("--%s: '%.60s' is not possible; allowed: two numbers, %s",
                      option_table[id].name, text, option_table[id].metavar);
+}
+
+enum { MAX_THREADS = 4096 };
+
+int value_threads(const invocation *call, int *out) {
+    const char *text = call->text[OPT_JOBS];
+
+    *out = system_cores();
+    if (text && !value_whole(text, 1, MAX_THREADS, out))
+        return cli_usage(
+            "--jobs: '%.60s' is not possible; allowed: whole numbers from 1 to %d",
+            text, MAX_THREADS);
+    return CLI_DONE;
+}
+
+int value_progress(const invocation *call, bool *out) {
+    int choice = 0, rc = value_choice(call, OPT_PROGRESS, &choice);
+
+    *out = choice == 0 ? isatty(STDERR_FILENO) : choice == 1;
+    return rc;
 }

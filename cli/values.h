@@ -28,6 +28,12 @@ int value_count(const invocation *call, option_id id, uint64_t lo, uint64_t hi,
 /* Two numbers and a comma between them. */
 int value_pair(const invocation *call, option_id id, double out[2]);
 
+/* --jobs, or all cores. */
+int value_threads(const invocation *call, int *out);
+
+/* --progress: whether it is shown. */
+int value_progress(const invocation *call, bool *out);
+
 /* A whole number from lo to hi, in digits only. */
 bool value_whole(const char *text, long lo, long hi, int *out);
 

@@ -6,6 +6,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ppscat)
 
 install(TARGETS ppscat EXPORT ppscatTargets)
 install(DIRECTORY include/ppscat TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY data/scenes data/trees DESTINATION ${CMAKE_INSTALL_DATADIR}/ppscat)
 install(EXPORT ppscatTargets NAMESPACE ppscat:: DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/ppscatConfig.cmake.in ppscatConfig.cmake

@@ -12,7 +12,7 @@ bool pps_alpha_any(const pps_mesh *mesh, size_t triangle);
 /* Whether the surface is there at barycentric (u, v): a + u (b - a) + v (c - a). */
 bool pps_alpha_there(const pps_mesh *mesh, size_t triangle, double u, double v);
 
-/* The share of the triangle that is there. */
-double pps_alpha_coverage(const pps_mesh *mesh, size_t triangle);
+/* share[triangle]: how much of each triangle is there. MEMORY. */
+pps_status pps_alpha_coverage(const pps_mesh *mesh, double *share);
 
 #endif

@@ -10,8 +10,8 @@
 enum { DEPTH = PPS_ANDERSON_DEPTH, BLOCK = 512 };
 static const double RIDGE = 1e-6; /* of floats' normal equations */
 
-pps_status pps_anderson_init(pps_anderson *a, size_t n) {
-    *a = (pps_anderson){.n = n};
+pps_status pps_anderson_init(pps_anderson *a, size_t n, size_t measured) {
+    *a = (pps_anderson){.n = n, .measured = measured};
     a->memory =
         aligned_alloc(sizeof(pps_bands), (2 + 2 * DEPTH) * (n + 1) * sizeof(pps_bands));
     if (!a->memory) {
@@ -72,6 +72,15 @@ static void add_block(pps_anderson *a, const float *weight, const pps_bands *x,
     for (int k = 0; k < kept; k++) {
         add_to(s->fd[k], fd[k]);
         add_to(s->dd[k], dd[k]);
+    }
+}
+
+/* Of what is not measured: its newest difference. */
+static void note_rest(pps_anderson *a, const pps_bands *g) {
+    pps_bands *image = a->dg[a->next];
+    for (size_t i = a->measured; i < a->n; i++) {
+        image[i] = g[i] - a->g[i];
+        a->g[i] = g[i];
     }
 }
 
@@ -138,10 +147,11 @@ double pps_anderson_step(pps_anderson *a, const float *weight, pps_bands *x,
     if (a->started && kept < DEPTH) {
         kept++;
     }
-    for (size_t from = 0; from < a->n; from += BLOCK) {
-        size_t to = from + BLOCK < a->n ? from + BLOCK : a->n;
+    for (size_t from = 0; from < a->measured; from += BLOCK) {
+        size_t to = from + BLOCK < a->measured ? from + BLOCK : a->measured;
         add_block(a, weight, x, g, from, to, kept, &s);
     }
+    note_rest(a, g);
     if (a->started) {
         for (int k = 0; k < kept; k++) {
             memcpy(a->gram[k][newest], s.dd[k], sizeof s.dd[k]);

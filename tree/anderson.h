@@ -14,7 +14,7 @@
 enum { PPS_ANDERSON_DEPTH = 3 };
 
 typedef struct pps_anderson {
-    size_t n;
+    size_t n, measured;
     int kept, next; /* differences at hand, and where the next one goes */
     bool started;
     pps_bands *f, *g; /* of the last step */
@@ -23,12 +23,14 @@ typedef struct pps_anderson {
     pps_bands *memory;
 } pps_anderson;
 
-pps_status pps_anderson_init(pps_anderson *a, size_t n);
+/* x has n numbers; the residual counts in the first `measured` of them. The others are
+ * mixed likewise, so that the whole stays a mixture of states. */
+pps_status pps_anderson_init(pps_anderson *a, size_t n, size_t measured);
 void pps_anderson_clear(pps_anderson *a);
 void pps_anderson_restart(pps_anderson *a); /* forget, for another g */
 
-/* From x and its image g to the next x >= 0. Returns the largest band's weighted
- * |g - x| / |g|. */
+/* From x and its image g to the next x >= 0; weight[measured]. Returns the largest band's
+ * weighted |g - x| / |g|. */
 double pps_anderson_step(pps_anderson *a, const float *weight, pps_bands *x,
                          const pps_bands *g);
 

@@ -34,12 +34,12 @@ void pps_bar_color(const pps_false_color *color, double value, double rgb[3]) {
 
 /* Pixels a dot: letters are legible in a small picture and not tiny in a large one. */
 static int scale_of(const pps_picture *picture) {
-    int scale = picture->height / 360;
+    int scale = picture->height / 300;
     return scale > 1 ? scale : 1;
 }
 
 int pps_bar_width(const pps_picture *picture) {
-    int wanted = 14 * PPS_FONT_WIDTH * scale_of(picture);
+    int wanted = 12 * PPS_FONT_WIDTH * scale_of(picture);
     return wanted < picture->width / 2 ? wanted : 0; /* too narrow: no key */
 }
 
@@ -100,6 +100,9 @@ void pps_bar_draw(const pps_false_color *color, pps_picture *picture) {
         draw_ticks(color, right + scale, top, bottom, scale, picture);
     }
     if (color->title) {
+        while (scale > 1 && pps_font_width(color->title, scale) > picture->width) {
+            scale--;
+        }
         int wide = pps_font_width(color->title, scale);
         int x = (picture->width - wide) / 2;
         for (int y = 0; y < (PPS_FONT_HEIGHT + 5) * scale; y++) {

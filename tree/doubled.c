@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tree/read.h"
+#include "tree/doubled.h"
 #include "tree/vec.h"
 
 typedef struct {
@@ -79,8 +79,9 @@ pps_status pps_mesh_drop_doubled(pps_mesh *mesh) {
     for (size_t i = 1; i < n; i++) {
         drop[list[i].triangle] = compare_corners(&list[i - 1], &list[i]) == 0;
     }
+    pps_status status = pps_mesh_doubled_quads(mesh, drop);
     mesh->n_doubled = 0;
-    for (uint32_t t = 0; t < n; t++) {
+    for (uint32_t t = 0; !status && t < n; t++) {
         bool area = has_area(mesh, t);
         mesh->n_doubled += area && drop[t];
         if (area && !drop[t]) {
@@ -88,8 +89,8 @@ pps_status pps_mesh_drop_doubled(pps_mesh *mesh) {
             mesh->material_of[kept++] = mesh->material_of[t];
         }
     }
-    mesh->n_triangles = kept;
+    mesh->n_triangles = status ? n : kept;
     free(list);
     free(drop);
-    return PPS_OK;
+    return status;
 }

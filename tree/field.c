@@ -137,6 +137,12 @@ void pps_light_field_free(pps_light_field *field) {
     }
 }
 
+void pps_light_field_forget(pps_light_field *field) {
+    if (field && field->state && field->model->ops->forget) {
+        field->model->ops->forget(field->state);
+    }
+}
+
 static pps_light_field *create(const pps_light_model *model, const pps_scene *scene,
                                const pps_cells *cells) {
     size_t n = cells->n_cells, bands = (size_t)scene->n_bands,

@@ -10,21 +10,30 @@
 #include <ppscat/tree/grow.h>
 
 #include "tree/grow_leaves.h"
+#include "tree/grow_textures.h"
 #include "tree/grow_wood.h"
 
 enum { LEAF, WOOD, N_MATERIALS };
 
 static char *copy_string(const char *s) {
-    char *copy = malloc(strlen(s) + 1);
-    return copy ? strcpy(copy, s) : NULL;
+    size_t size = strlen(s) + 1;
+    char *copy = malloc(size);
+    return copy ? memcpy(copy, s, size) : NULL;
 }
 
-/* "leaf" has the light that a white lamp on both sides would make it send back; "wood" is
- * divided by the mean of its texture, which multiplies it. */
+/* A texture for a material, if it could be made. */
+static void add_texture(pps_mesh *mesh, pps_material *material, pps_texture texture) {
+    if (texture.rgba) {
+        material->texture = (int)mesh->n_textures;
+        mesh->texture[mesh->n_textures++] = texture;
+    }
+}
+
+/* The colour of leaves is that of white light on both sides. */
 static pps_status add_materials(const pps_species *s, uint64_t seed, pps_mesh *mesh) {
     mesh->n_materials = N_MATERIALS;
     mesh->material = calloc(N_MATERIALS, sizeof *mesh->material);
-    mesh->texture = calloc(1, sizeof *mesh->texture);
+    mesh->texture = calloc(N_MATERIALS, sizeof *mesh->texture);
     if (!mesh->material || !mesh->texture) {
         return PPS_ERR_MEMORY;
     }
@@ -35,10 +44,11 @@ static pps_status add_materials(const pps_species *s, uint64_t seed, pps_mesh *m
         leaf->color[i] = s->leaves.reflectance[i] + s->leaves.transmittance[i];
         wood->color[i] = s->wood.color[i];
     }
+    if (s->leaves.heart > 0) {
+        add_texture(mesh, leaf, pps_grow_petal(s));
+    }
     if (s->wood.lenticels > 0) {
-        mesh->texture[0] = pps_wood_bark(s, seed);
-        mesh->n_textures = mesh->texture[0].rgba ? 1 : 0;
-        wood->texture = mesh->n_textures ? 0 : -1;
+        add_texture(mesh, wood, pps_grow_bark(s, seed));
     }
     return leaf->name && wood->name ? PPS_OK : PPS_ERR_MEMORY;
 }

@@ -173,7 +173,7 @@ static pps_status pick_blades(const pps_species *s, uint64_t seed,
         return PPS_ERR_MEMORY;
     }
     size_t cluster = (size_t)s->leaves.cluster, clusters = (n + cluster - 1) / cluster;
-    bool bare = !(sum[skeleton->n - 1] > 0);
+    bool bare = skeleton->n == 0 || !(sum[skeleton->n - 1] > 0);
     for (size_t i = 0; i < n && !bare; i++) {
         site at = pick_site(seed, skeleton, sum, i / cluster, clusters);
         leaf[i] = pick_blade(s, seed, &at, i / cluster, i % cluster);

@@ -12,7 +12,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { LEAST_SIDES = 3, BARK = 20 << 8, BUTTRESS = 21 << 8 };
+enum { LEAST_SIDES = 3, BUTTRESS = 21 << 8 };
 
 typedef struct {
     uint32_t first; /* of sides + 1 vertices: the seam is there twice */
@@ -60,19 +60,17 @@ static ring add_ring(tube *t, const double at[3], const double way[3], double ra
     return r;
 }
 
-/* Triangles between two rings, whatever their sides: always on from the one behind. */
+/* Triangles between two rings, whatever their sides: always on along the ring that is
+ * behind. */
 static void join_rings(ring low, ring high, uint32_t material, pps_builder *b) {
     for (int i = 0, k = 0; i < low.sides || k < high.sides;) {
         uint32_t p = low.first + (uint32_t)i, q = high.first + (uint32_t)k;
-        if ((i + 1) * high.sides <= (k + 1) * low.sides && i < low.sides) {
+        if ((i + 1) * high.sides <= (k + 1) * low.sides) {
             pps_build_triangle(b, p, p + 1, q, material);
             i++;
-        } else if (k < high.sides) {
+        } else {
             pps_build_triangle(b, p, q + 1, q, material);
             k++;
-        } else {
-            pps_build_triangle(b, p, p + 1, q, material);
-            i++;
         }
     }
 }
@@ -102,6 +100,16 @@ static void way_at(const pps_skeleton *s, uint32_t from, uint32_t k, double out[
     vec_normalize(out);
 }
 
+/* Rings near the ground lie level, or a leaning stem's would reach below it. */
+static void level_near_ground(const pps_species *s, double z, double way[3]) {
+    static const double up[3] = {0, 0, 1};
+    double free = fmin(1, fmax(0, z) / (4 * s->wood.flare_height));
+    for (int i = 0; i < 3; i++) {
+        way[i] = free * way[i] + (1 - free) * up[i];
+    }
+    vec_normalize(way);
+}
+
 /* The branch that starts with node k, out of its parent or out of the ground. */
 static void add_branch(const pps_species *species, double phase, const pps_skeleton *s,
                        uint32_t k, uint32_t material, pps_builder *b) {
@@ -128,6 +136,9 @@ static void add_branch(const pps_species *species, double phase, const pps_skele
             close_ring(last, node->at, t.along, material, b);
         } else {
             way_at(s, before, at, way);
+            if (t.foot) {
+                level_near_ground(species, node->at[2], way);
+            }
             ring next = add_ring(&t, node->at, way, node->radius, b);
             join_rings(last, next, material, b);
             last = next;
@@ -146,42 +157,4 @@ void pps_wood_build(const pps_species *species, uint64_t seed,
             add_branch(species, phase, skeleton, k, material, b);
         }
     }
-}
-
-/* ---- bark ---- */
-
-static uint8_t share(double x) { return (uint8_t)(255 * fmin(1, fmax(0, x)) + 0.5); }
-
-pps_texture pps_wood_bark(const pps_species *species, uint64_t seed) {
-    enum { WIDTH = 256, HEIGHT = 128, DASHES = 260 };
-    double *light = malloc((size_t)WIDTH * HEIGHT * sizeof *light);
-    pps_texture texture = {0, 0, malloc((size_t)4 * WIDTH * HEIGHT)};
-    if (!light || !texture.rgba) {
-        free(light);
-        free(texture.rgba);
-        return (pps_texture){0, 0, NULL};
-    }
-    for (uint64_t i = 0; i < (uint64_t)WIDTH * HEIGHT; i++) {
-        light[i] = 0.62 + 0.1 * pps_random(seed, PPS_RANDOM_SPECIES, i, BARK).u[0];
-    }
-    for (uint64_t i = 0; i < DASHES; i++) {
-        pps_uniforms r = pps_random(seed, PPS_RANDOM_SPECIES, i, BARK + 1);
-        int x = (int)(r.u[0] * WIDTH), y = (int)(r.u[1] * HEIGHT);
-        int length = 4 + (int)(r.u[2] * r.u[2] * 44), thick = r.u[3] > 0.7 ? 2 : 1;
-        for (int p = 0; p < length * thick; p++) {
-            int row = (y + p / length) % HEIGHT, column = (x + p % length) % WIDTH;
-            light[row * WIDTH + column] +=
-                species->wood.lenticels * (0.15 + 0.25 * r.u[3]);
-        }
-    }
-    texture.width = WIDTH;
-    texture.height = HEIGHT;
-    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
-        texture.rgba[4 * i] = share(light[i] * 1.02);
-        texture.rgba[4 * i + 1] = share(light[i]);
-        texture.rgba[4 * i + 2] = share(light[i] * 0.98);
-        texture.rgba[4 * i + 3] = 255;
-    }
-    free(light);
-    return texture;
 }

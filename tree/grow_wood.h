@@ -10,8 +10,4 @@
 void pps_wood_build(const pps_species *species, uint64_t seed,
                     const pps_skeleton *skeleton, uint32_t material, pps_builder *b);
 
-/* The texture of the bark, or one of width 0 where memory is short: short level dashes
- * (lenticels), as strong as /wood/lenticels. It repeats both ways. */
-pps_texture pps_wood_bark(const pps_species *species, uint64_t seed);
-
 #endif

@@ -19,7 +19,7 @@ static double turn(const double o[2], const double a[2], const double b[2]) {
 }
 
 /* Drop what lies inside the octagon of the points that are farthest in eight directions
- * (Akl and Toussaint 1978): the rest, few, keep their order. Returns how many. */
+ * (AT78): the rest, few, keep their order. Returns how many. */
 static size_t sieve(size_t n, double (*point)[2]) {
     static const double way[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                      {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};

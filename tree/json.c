@@ -23,13 +23,12 @@ pps_status pps_json_load(const pps_json_file *file, pps_json *root) {
         return pps_complain(file->problem, status, "%s: %s", file->path,
                             status == PPS_ERR_FILE ? strerror(errno) : "out of memory");
     }
-    root->value = json_loadb((const char *)bytes, n,
-                             JSON_REJECT_DUPLICATES | JSON_DECODE_ANY, &error);
+    root->value = json_loadb((const char *)bytes, n, JSON_REJECT_DUPLICATES, &error);
     free(bytes);
     if (root->value) {
         return PPS_OK;
     }
-    if (json_error_code(&error) == json_error_out_of_memory) {
+    if (!*error.text || json_error_code(&error) == json_error_out_of_memory) {
         return pps_complain(file->problem, PPS_ERR_MEMORY, "%s: out of memory",
                             file->path);
     }
@@ -83,16 +82,21 @@ static void append_pointer(line *to, const pps_json *at) {
     }
 }
 
-pps_status pps_json_fail(const pps_json *at, const char *format, ...) {
+static pps_status fail(const pps_json *at, const char *format, va_list arguments) {
     char what[350];
     line pointer = {"", 0};
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
     append_pointer(&pointer, at);
     return pps_complain(at->file->problem, PPS_ERR_FORMAT, "%s: %s%s%s", at->file->path,
                         pointer.text, pointer.n ? ": " : "", what);
+}
+
+pps_status pps_json_fail(const pps_json *at, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    pps_status status = fail(at, format, arguments);
+    va_end(arguments);
+    return status;
 }
 
 /* The value as in the file, if it is short; else what kind it is. */
@@ -139,9 +143,12 @@ static size_t distance(const char *a, const char *b) {
 }
 
 static const char *closest(const char *key, const char *const allowed[]) {
-    const char *best = allowed[0];
-    for (size_t i = 1; allowed[i]; i++) {
-        best = distance(key, allowed[i]) < distance(key, best) ? allowed[i] : best;
+    const char *best = "";
+    size_t least = SIZE_MAX;
+    for (size_t i = 0; allowed[i]; i++) {
+        size_t far = distance(key, allowed[i]);
+        best = far < least ? allowed[i] : best;
+        least = far < least ? far : least;
     }
     return best;
 }

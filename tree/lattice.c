@@ -13,6 +13,7 @@
 
 #include "tree/anderson.h"
 #include "tree/grid.h"
+#include "tree/ordinates.h"
 #include "tree/sweep.h"
 #include "tree/vec.h"
 
@@ -24,7 +25,6 @@ struct pps_lattice {
     size_t n_cells, n_leaf_cells, n_columns;
     int n_directions, threads;
     bool ground;
-    double up_cosine; /* (1/N) sum of |cos| over upward directions */
     double gap, kappa_given;
     uint32_t *leaf_cell;
     float *depth;                /* per cell: sigma times side */
@@ -35,7 +35,7 @@ struct pps_lattice {
     pps_bands *fall, *ground_direct, *ground_light; /* per column */
     size_t n_state;
     pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
-    float *weight;            /* of the state: power per cell face and unit */
+    float *weight;            /* per leaf cell: depth */
     float *sky_below; /* [j * n_columns + column]: the share that reaches the ground */
     pps_sweeper sweeper;
     pps_anderson anderson;
@@ -70,6 +70,10 @@ bool pps_lattice_fits(const pps_lattice *l, const pps_lit_scene *lit) {
            l->gap == gap_below(lit->scene, lit->cells);
 }
 
+void pps_lattice_forget(pps_lattice *l) {
+    memset(l->state, 0, l->n_state * sizeof *l->state);
+}
+
 double pps_lattice_kappa(const pps_lattice *l, size_t c) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         if (l->leaf_cell[i] == c) {
@@ -93,7 +97,7 @@ static void sweep_both(pps_lattice *l, const pps_sweep half[2]) {
 }
 
 /* The share of light from outside that reaches the cells of a lattice without sources,
- * mean over directions, to 1e-4; and what of each direction reaches the ground. */
+ * mean over directions, to 1e-4. */
 static void sweep_dark(pps_lattice *l, pps_sweeper *sweeper, const pps_sweep half[2]) {
     double before = -1, now = 0;
     for (int k = 0; k < DARK_SWEEPS_MAX && fabs(now - before) > 1e-4 * now; k++) {
@@ -146,15 +150,14 @@ static pps_status allocate(pps_lattice *l) {
     return PPS_OK;
 }
 
-/* What the sweeps iterate, and what each of it weighs: all as power through the face of a
- * cell, so that one sum of squares is fair to leaves, sides and ground. */
+/* What the sweeps iterate. Leaves alone are measured: light that crosses the sides settles
+ * by itself in a few sweeps, and only has to be mixed as the leaves' light is. */
 static pps_status make_state(pps_lattice *l) {
-    size_t sides = l->sweeper.periodic ? l->sweeper.n_sides : 0;
-    size_t columns = l->ground ? l->n_columns : 0, n = l->n_leaf_cells;
-    double directions = l->n_directions;
-    l->n_state = n + sides + columns;
+    size_t n = l->n_leaf_cells;
+    l->n_state = n + (l->sweeper.periodic ? l->sweeper.n_sides : 0) +
+                 (l->ground ? l->n_columns : 0);
     l->state = bands_array(2 * l->n_state);
-    l->weight = malloc((l->n_state + 1) * sizeof *l->weight);
+    l->weight = malloc((n + 1) * sizeof *l->weight);
     if (!l->state || !l->weight) {
         return PPS_ERR_MEMORY;
     }
@@ -162,14 +165,7 @@ static pps_status make_state(pps_lattice *l) {
     for (size_t i = 0; i < n; i++) {
         l->weight[i] = l->depth[l->leaf_cell[i]];
     }
-    for (size_t i = 0; i < sides; i++) {
-        l->weight[n + i] = (float)(0.5 / directions); /* mean |cos| */
-    }
-    for (size_t i = 0; i < columns; i++) {
-        l->weight[n + sides + i] =
-            (float)(1 / (directions * directions * l->up_cosine));
-    }
-    return pps_anderson_init(&l->anderson, l->n_state);
+    return pps_anderson_init(&l->anderson, l->n_state, n);
 }
 
 static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
@@ -193,11 +189,11 @@ static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
 }
 
 /* How much of each direction's light reaches the ground. */
-static void note_sky_below(pps_lattice *l) {
-    for (int k = 0; k < l->sweeper.n_down; k++) {
-        const pps_sweep_group *g = &l->sweeper.group[k];
+static void note_sky_below(pps_lattice *l, const pps_sweeper *sweeper) {
+    for (int k = 0; k < sweeper->n_down; k++) {
+        const pps_sweep_group *g = &sweeper->group[k];
         for (int d = 0; d < g->n; d++) {
-            pps_sweep_clear(&l->sweeper, g, d,
+            pps_sweep_clear(sweeper, g, d,
                             l->sky_below + (size_t)g->direction[d] * l->n_columns);
         }
     }
@@ -205,19 +201,13 @@ static void note_sky_below(pps_lattice *l) {
 
 /* kappa = (1 - mean visibility at leaves) / (1 - escape on the lattice), each a mean over
  * 3^3 cells: leaves that cluster below a cell catch more of their own light. */
-static pps_status measure_kappa(pps_lattice *l, const pps_cells *cells, double given) {
-    pps_bands one = pps_bands_all(1);
-    pps_sweep half[2] = {
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
-        {.source = l->source, .top = one, .side = one, .sum = l->sum[1]}};
+static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given) {
     double *kept = calloc(4 * l->n_cells + 1, sizeof *kept);
     if (!kept) {
         return PPS_ERR_MEMORY;
     }
     double *caught = kept + l->n_cells, *mean_kept = caught + l->n_cells,
            *mean_caught = mean_kept + l->n_cells;
-    sweep_dark(l, &l->sweeper, half);
-    note_sky_below(l);
     int n = l->n_directions;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
@@ -225,7 +215,7 @@ static pps_status measure_kappa(pps_lattice *l, const pps_cells *cells, double g
         for (int j = 0; j < n; j++) {
             seen += (double)cells->visibility[c * (size_t)n + (size_t)j];
         }
-        kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]) / n;
+        kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
         caught[c] = 1 - seen / n;
     }
     pps_grid_smooth(cells, kept, mean_kept);
@@ -233,11 +223,42 @@ static pps_status measure_kappa(pps_lattice *l, const pps_cells *cells, double g
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
-        l->kappa[i] =
-            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+        l->kappa[i] = (float)(given > 0 ? given
+                                        : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
     }
     free(kept);
     return PPS_OK;
+}
+
+/* What of light from outside, along the directions that visibilities are known for,
+ * reaches cells and ground through a lattice without sources. */
+static pps_status measure_escape(pps_lattice *l, const pps_cells *cells, double kappa) {
+    double weight[PPS_SWEEP_DIRECTIONS_MAX];
+    pps_sweeper sweeper = {0};
+    pps_bands one = pps_bands_all(1);
+    pps_sweep half[2] = {
+        {.source = l->source, .top = one, .side = one, .sum = l->sum[0]},
+        {.source = l->source, .top = one, .side = one, .sum = l->sum[1]}};
+    for (int j = 0; j < l->n_directions; j++) {
+        weight[j] = 1.0 / l->n_directions;
+    }
+    pps_status status =
+        pps_sweeper_init(&sweeper, cells->n, cells->periodic, l->depth, l->n_directions,
+                         cells->directions.to, weight, l->gap);
+    if (!status) {
+        sweep_dark(l, &sweeper, half);
+        note_sky_below(l, &sweeper);
+        status = set_kappa(l, cells, kappa);
+    }
+    pps_sweeper_clear(&sweeper);
+    return status;
+}
+
+static pps_status plan_sweeps(pps_lattice *l, const pps_cells *cells) {
+    double to[PPS_ORDINATES][3], weight[PPS_ORDINATES];
+    pps_ordinates(to, weight);
+    return pps_sweeper_init(&l->sweeper, cells->n, cells->periodic, l->depth,
+                            PPS_ORDINATES, (const double(*)[3])to, weight, l->gap);
 }
 
 static void count_cells(pps_lattice *l, const pps_scene *scene,
@@ -249,9 +270,6 @@ static void count_cells(pps_lattice *l, const pps_scene *scene,
     l->gap = gap_below(scene, cells);
     for (size_t c = 0; c < cells->n_cells; c++) {
         l->n_leaf_cells += cells->area[c] > 0;
-    }
-    for (int j = 0; j < l->n_directions; j++) {
-        l->up_cosine += fmax(-cells->directions.to[j][2], 0) / l->n_directions;
     }
 }
 
@@ -267,14 +285,13 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
     pps_status status = allocate(l);
     if (!status) {
-        status = pps_sweeper_init(&l->sweeper, cells->n, cells->periodic, l->depth,
-                                  l->n_directions, cells->directions.to, l->gap);
+        status = plan_sweeps(l, cells);
     }
     if (!status) {
         status = set_leaf_cells(l, scene, cells);
     }
     if (!status) {
-        status = measure_kappa(l, cells, kappa);
+        status = measure_escape(l, cells, kappa);
     }
     if (!status) {
         status = make_state(l);
@@ -319,7 +336,8 @@ static pps_status sun_below(pps_lattice *l, const pps_lit_scene *lit, float *cle
     double to[1][3];
     memcpy(to, lit->scene->sun.to, sizeof to);
     pps_status status = pps_sweeper_init(&sweeper, lit->cells->n, lit->cells->periodic,
-                                         l->depth, 1, (const double(*)[3])to, l->gap);
+                                         l->depth, 1, (const double(*)[3])to,
+                                         &(double){1}, l->gap);
     if (status) {
         return status;
     }
@@ -379,13 +397,11 @@ static void set_source(pps_lattice *l) {
     }
 }
 
-/* What the ground sends up, I = 4 pi times its radiance; the quadrature's own mean cosine
- * in place of 1/4 gives back exactly what fell. */
+/* What the ground sends up, I = 4 pi times its radiance: 4 times its exitance. */
 static void set_ground_light(pps_lattice *l, const pps_bands *reflectance,
                              const pps_bands *fall) {
-    float up = (float)(1 / l->up_cosine), per = 1 / (float)l->n_directions;
     for (size_t i = 0; i < l->n_columns; i++) {
-        l->ground_light[i] = up * *reflectance * (l->ground_direct[i] + per * fall[i]);
+        l->ground_light[i] = 4 * *reflectance * (l->ground_direct[i] + fall[i]);
     }
 }
 
@@ -403,7 +419,7 @@ static void sweep_once(pps_lattice *l, const pps_bands *reflectance, pps_bands f
         memset(l->fall, 0, l->n_columns * sizeof(pps_bands));
         half[0].fall = l->fall;
         half[1].ground = l->ground_light;
-        half[1].side = (float)(1 / l->up_cosine) * *reflectance * far;
+        half[1].side = 4 * *reflectance * far;
     }
     for (int h = 0; h < 2 && flux; h++) {
         half[h].flux = l->flux[h];
@@ -416,7 +432,7 @@ static void take_image(pps_lattice *l) {
     pps_bands *image = l->image;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        *image++ = l->kappa[i] / (float)l->n_directions * (l->sum[0][c] + l->sum[1][c]);
+        *image++ = l->kappa[i] * (l->sum[0][c] + l->sum[1][c]);
     }
     if (l->sweeper.periodic) {
         memcpy(image, l->sweeper.faces, l->sweeper.n_sides * sizeof *image);
@@ -446,7 +462,7 @@ static void give(const pps_lattice *l, pps_light_field *field) {
     size_t bands = (size_t)field->n_bands;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        float share = l->kappa[i] / (float)l->n_directions;
+        float share = l->kappa[i];
         for (size_t b = 0; b < bands; b++) {
             field->diffuse[c * bands + b] = share * (l->sum[0][c] + l->sum[1][c])[b];
             for (size_t k = 0; k < 3; k++) {

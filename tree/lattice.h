@@ -29,6 +29,9 @@ bool pps_lattice_fits(const pps_lattice *lattice, const pps_lit_scene *lit);
 pps_status pps_lattice_solve(pps_lattice *lattice, const pps_lit_scene *lit,
                              double tolerance, pps_light_field *field);
 
+/* Start the next solve from no light. */
+void pps_lattice_forget(pps_lattice *lattice);
+
 /* The escape factor of a cell. */
 double pps_lattice_kappa(const pps_lattice *lattice, size_t c);
 

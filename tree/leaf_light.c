@@ -49,17 +49,19 @@ void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]) {
     }
 }
 
-/* tau s_max of an octant; one without a gap at all is as deep as floats tell. */
-static double octant_depth(const float *att, int j) {
-    return -log(fmax((double)att[j], 1e-37));
+void pps_leaf_octants_init(pps_leaf_octants *octants, const float *att) {
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        octants->att[j] = (double)att[j];
+        octants->depth[j] = -log(fmax((double)att[j], 1e-37));
+    }
 }
 
-double pps_leaf_sun_through(const pps_leaf_sun *sun, const float *att,
+double pps_leaf_sun_through(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
                             pps_sun_mean mean) {
     double depth = 0, through = 0;
     for (int j = 0; j < PPS_OCTANTS; j++) {
-        depth += sun->weight[j] * octant_depth(att, j);
-        through += sun->weight[j] * (double)att[j];
+        depth += sun->weight[j] * octants->depth[j];
+        through += sun->weight[j] * octants->att[j];
     }
     return mean == PPS_SUN_PRINTED ? exp(-depth) : through;
 }
@@ -67,25 +69,27 @@ double pps_leaf_sun_through(const pps_leaf_sun *sun, const float *att,
 /* (1 - e^(-a x))/a for any sign of a. */
 static double decayed(double a, double x) { return a == 0 ? x : -expm1(-a * x) / a; }
 
+/* 1 - omega_i.omega_j, by the signs that differ. */
+static double apart(int i, int j) {
+    int differ = i ^ j;
+    return 2 / 3.0 * ((differ & 1) + (differ >> 1 & 1) + (differ >> 2 & 1));
+}
+
 /* Along omega_j the sun's depth changes by -turn_j a unit (B-Eq. 22), so B-Eq. 20 is
  * T int_0^x e^(-s (1 - turn)) ds, x = tau s_max_j. The unbiased mean has one such
  * integral for each octant the sun shines through. */
-double pps_leaf_sun_depth(const pps_leaf_sun *sun, const float *att, int j,
-                          pps_sun_mean mean) {
-    double x = octant_depth(att, j);
-    if (mean == PPS_SUN_PRINTED) {
-        return pps_leaf_sun_through(sun, att, mean) * decayed(1 - sun->turn[j], x);
-    }
-    double sum = 0, omega[3], other[3];
-    pps_octant_direction(j, omega);
-    for (int i = 0; i < PPS_OCTANTS; i++) {
-        if (sun->weight[i] > 0) {
-            pps_octant_direction(i, other);
-            double across = i == j ? 0 : 1 - vec_dot(omega, other);
-            sum += sun->weight[i] * (double)att[i] * decayed(across, x);
+void pps_leaf_sun_depths(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
+                         pps_sun_mean mean, double out[PPS_OCTANTS]) {
+    double through = pps_leaf_sun_through(sun, octants, mean);
+    for (int j = 0; j < PPS_OCTANTS; j++) {
+        double x = octants->depth[j];
+        out[j] = mean == PPS_SUN_PRINTED ? through * decayed(1 - sun->turn[j], x) : 0;
+        for (int i = 0; i < PPS_OCTANTS && mean == PPS_SUN_UNBIASED; i++) {
+            if (sun->weight[i] > 0) {
+                out[j] += sun->weight[i] * octants->att[i] * decayed(apart(i, j), x);
+            }
         }
     }
-    return sum;
 }
 
 /* The sky's mean radiance over each octant: z has the mean 1/2 over an upper one. With a
@@ -103,7 +107,8 @@ static void octant_sky(const pps_scene *scene, int band, double sky[PPS_OCTANTS]
 
 /* What holds for all leaves of a scene in one band. */
 typedef struct {
-    double sky[PPS_OCTANTS]; /* radiance */
+    double omega[PPS_OCTANTS][3];
+    double sky[PPS_OCTANTS]; /* radiance; 0 where it is not asked for */
     pps_leaf_sun sun;
     double irradiance; /* of the sun */
     double to[3];
@@ -115,26 +120,29 @@ typedef struct {
 static void light_leaf(const lights *l, const double normal[3], const float *att,
                        const double turned[PPS_OCTANTS], double face[2]) {
     double from[PPS_OCTANTS] = {0}; /* radiance times solid angle */
+    bool sun = l->sources & PPS_SUN && l->irradiance > 0;
+    bool indirect = l->sources & PPS_SUN_INDIRECT && l->irradiance > 0;
+    pps_leaf_octants octants;
+    if (sun || indirect) {
+        pps_leaf_octants_init(&octants, att);
+    }
+    if (indirect) {
+        pps_leaf_sun_depths(&l->sun, &octants, l->mean, from);
+    }
     for (int j = 0; j < PPS_OCTANTS; j++) {
-        if (l->sources & PPS_SKY) {
-            from[j] += 4 * PI / PPS_OCTANTS * (double)att[j] * l->sky[j];
-        }
-        if (l->sources & PPS_SUN_INDIRECT && l->irradiance > 0) {
-            from[j] += turned[j] * pps_leaf_sun_depth(&l->sun, att, j, l->mean) *
-                       l->irradiance;
-        }
+        from[j] *= turned[j] * l->irradiance;
+        from[j] += 4 * PI / PPS_OCTANTS * (double)att[j] * l->sky[j];
     }
     face[0] = face[1] = 0;
     for (int j = 0; j < PPS_OCTANTS; j++) {
-        double omega[3];
-        pps_octant_direction(j, omega);
-        double cosine = vec_dot(normal, omega);
-        face[cosine < 0] += fabs(cosine) * from[j];
+        double cosine = vec_dot(normal, l->omega[j]);
+        face[0] += fmax(cosine, 0) * from[j];
+        face[1] += fmax(-cosine, 0) * from[j];
     }
-    if (l->sources & PPS_SUN && l->irradiance > 0) {
+    if (sun) {
         double cosine = vec_dot(normal, l->to);
-        face[cosine < 0] +=
-            fabs(cosine) * l->irradiance * pps_leaf_sun_through(&l->sun, att, l->mean);
+        face[cosine < 0] += fabs(cosine) * l->irradiance *
+                            pps_leaf_sun_through(&l->sun, &octants, l->mean);
     }
 }
 
@@ -172,7 +180,12 @@ pps_status pps_leaf_light(const pps_scene *scene, const float *att, pps_sun_mean
                     .to = {scene->sun.to[0], scene->sun.to[1], scene->sun.to[2]},
                     .mean = mean,
                     .sources = sources};
-        octant_sky(scene, band, l.sky);
+        if (sources & PPS_SKY) {
+            octant_sky(scene, band, l.sky);
+        }
+        for (int j = 0; j < PPS_OCTANTS; j++) {
+            pps_octant_direction(j, l.omega[j]);
+        }
         pps_leaf_sun_init(&l.sun, l.to);
         light_band(scene, &l, att, band, out);
     }

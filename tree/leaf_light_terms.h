@@ -22,14 +22,20 @@ typedef struct pps_leaf_sun {
 } pps_leaf_sun;
 void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]);
 
+/* The octants of one leaf; `depth` is tau s_max, finite even where nothing comes through. */
+typedef struct pps_leaf_octants {
+    double att[PPS_OCTANTS], depth[PPS_OCTANTS];
+} pps_leaf_octants;
+void pps_leaf_octants_init(pps_leaf_octants *octants, const float *att);
+
 /* The sun's light that reaches the leaf: e^(-tau s_max(omega_l)), or its mean. */
-double pps_leaf_sun_through(const pps_leaf_sun *sun, const float *att,
+double pps_leaf_sun_through(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
                             pps_sun_mean mean);
 
-/* tau times the integral of B-Eq. 20 with E_sun = 1: sunlight on the leaves of octant j,
- * seen through those in front. */
-double pps_leaf_sun_depth(const pps_leaf_sun *sun, const float *att, int j,
-                          pps_sun_mean mean);
+/* tau times the integral of B-Eq. 20 with E_sun = 1, of every octant: sunlight on its
+ * leaves, seen through those in front. */
+void pps_leaf_sun_depths(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
+                         pps_sun_mean mean, double out[PPS_OCTANTS]);
 
 /* A G1(j)/tau (B-Eq. 18): what leaves of these optics send on; A rho = 2 tau. */
 double pps_leaf_turned(const pps_leaf_optics *optics, int band, double alpha);

@@ -21,6 +21,7 @@ struct pps_light_model_ops {
     /* Fill diffuse, flux and g_factor of the field; the rest is there. NULL: the model
      * does not use cells and has `leaves`. */
     pps_status (*solve)(const pps_lit_scene *lit, pps_light_field *field);
+    void (*forget)(void *state); /* the last answer; NULL: none is kept */
     void (*free_state)(void *state); /* NULL: none */
     pps_status (*leaves)(const pps_lit_scene *lit, pps_irradiance *out);
 };

@@ -56,14 +56,19 @@ typedef struct {
     uint32_t vertex;
 } place;
 
-static int by_place(const void *a, const void *b) {
-    const place *p = a, *q = b;
+static int compare_places(const double a[3], const double b[3]) {
     for (int i = 0; i < 3; i++) {
-        if (p->at[i] != q->at[i]) {
-            return p->at[i] < q->at[i] ? -1 : 1;
+        if (a[i] != b[i]) {
+            return a[i] < b[i] ? -1 : 1;
         }
     }
-    return (p->vertex > q->vertex) - (p->vertex < q->vertex);
+    return 0;
+}
+
+static int by_place(const void *a, const void *b) {
+    const place *p = a, *q = b;
+    int order = compare_places(p->at, q->at);
+    return order ? order : (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
 pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
@@ -77,8 +82,7 @@ pps_status pps_mesh_weld(const pps_mesh *mesh, uint32_t *same) {
     }
     qsort(places, mesh->n_vertices, sizeof *places, by_place);
     for (size_t i = 0; i < mesh->n_vertices; i++) {
-        bool fresh =
-            i == 0 || memcmp(places[i].at, places[i - 1].at, sizeof places[i].at) != 0;
+        bool fresh = i == 0 || compare_places(places[i].at, places[i - 1].at) != 0;
         same[places[i].vertex] = fresh ? places[i].vertex : same[places[i - 1].vertex];
     }
     free(places);
@@ -104,6 +108,39 @@ static bool is_leaf(const pps_mesh *mesh, size_t triangle) {
     return mesh->material[mesh->material_of[triangle]].leaf;
 }
 
+static void triangle_vector(const pps_mesh *mesh, size_t t, double center[3],
+                            double twice_area[3]) {
+    const double *a = mesh->position[mesh->triangle[t][0]];
+    const double *b = mesh->position[mesh->triangle[t][1]];
+    const double *c = mesh->position[mesh->triangle[t][2]];
+    double ab[3], ac[3];
+    vec_sub(b, a, ab);
+    vec_sub(c, a, ac);
+    vec_cross(ab, ac, twice_area);
+    for (int i = 0; i < 3; i++) {
+        center[i] = (a[i] + b[i] + c[i]) / 3;
+    }
+}
+
+/* Of the triangles at an edge two join; where more meet (crossed cards, say) only those
+ * that go on into each other, their planes within 30 degrees. */
+static void join_at_edge(const pps_mesh *mesh, const edge *at, size_t n,
+                         uint32_t *parent) {
+    static const double COSINE = 0.8660254037844386;
+    enum { MOST_AT_EDGE = 64 }; /* more are no leaves, and would take long */
+    for (size_t i = 0; i < n && n <= MOST_AT_EDGE; i++) {
+        for (size_t j = i + 1; j < n; j++) {
+            double center[3], a[3], b[3];
+            triangle_vector(mesh, at[i].triangle, center, a);
+            triangle_vector(mesh, at[j].triangle, center, b);
+            bool flat = fabs(vec_dot(a, b)) >= COSINE * vec_length(a) * vec_length(b);
+            if (n == 2 || flat) {
+                join(parent, at[i].triangle, at[j].triangle);
+            }
+        }
+    }
+}
+
 /* Join the leaf triangles that share an edge; leaves that meet in a point stay apart. */
 static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
     uint32_t *same = malloc((mesh->n_vertices + 1) * sizeof *same);
@@ -120,11 +157,12 @@ static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
     }
     if (!status) {
         qsort(edges, n, sizeof *edges, by_edge);
-        for (size_t i = 1; i < n; i++) {
-            if (edges[i].low == edges[i - 1].low &&
-                edges[i].high == edges[i - 1].high) {
-                join(parent, edges[i - 1].triangle, edges[i].triangle);
+        for (size_t i = 0, next; i < n; i = next) {
+            for (next = i + 1; next < n && edges[next].low == edges[i].low &&
+                               edges[next].high == edges[i].high;
+                 next++) {
             }
+            join_at_edge(mesh, edges + i, next - i, parent);
         }
     }
     free(same);
@@ -134,29 +172,15 @@ static pps_status connect(const pps_mesh *mesh, uint32_t *parent) {
 
 /* ---- leaves ---- */
 
-static void triangle_vector(const pps_mesh *mesh, size_t t, double center[3],
-                            double twice_area[3]) {
-    const double *a = mesh->position[mesh->triangle[t][0]];
-    const double *b = mesh->position[mesh->triangle[t][1]];
-    const double *c = mesh->position[mesh->triangle[t][2]];
-    double ab[3], ac[3];
-    vec_sub(b, a, ab);
-    vec_sub(c, a, ac);
-    vec_cross(ab, ac, twice_area);
-    for (int i = 0; i < 3; i++) {
-        center[i] = (a[i] + b[i] + c[i]) / 3;
-    }
-}
-
 /* Center and normal weigh the whole triangles, so they are defined without any alpha. */
-static void measure_leaf(const pps_mesh *mesh, pps_leaf *leaf) {
+static void measure_leaf(const pps_mesh *mesh, const double *share, pps_leaf *leaf) {
     double whole = 0, sum[3] = {0}, normal[3] = {0}, area = 0;
     for (size_t t = leaf->first; t < leaf->first + leaf->n_triangles; t++) {
         double center[3], twice[3];
         triangle_vector(mesh, t, center, twice);
         double a = vec_length(twice) / 2;
         whole += a;
-        area += a * pps_alpha_coverage(mesh, t);
+        area += a * share[t];
         vec_along(sum, a, center, sum);
         vec_along(normal, 1, twice, normal);
     }
@@ -222,8 +246,12 @@ static pps_status sort_triangles(pps_mesh *mesh, const ranked *rank) {
 
 static pps_status collect_leaves(pps_mesh *mesh) {
     mesh->leaf = calloc(mesh->n_leaves + 1, sizeof *mesh->leaf);
-    if (!mesh->leaf) {
-        return PPS_ERR_MEMORY;
+    double *share = malloc(mesh->n_triangles * sizeof *share);
+    pps_status status =
+        mesh->leaf && share ? pps_alpha_coverage(mesh, share) : PPS_ERR_MEMORY;
+    if (status) {
+        free(share);
+        return status;
     }
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         if (mesh->leaf_of[t] != PPS_NO_LEAF) {
@@ -233,8 +261,9 @@ static pps_status collect_leaves(pps_mesh *mesh) {
         }
     }
     for (size_t i = 0; i < mesh->n_leaves; i++) {
-        measure_leaf(mesh, &mesh->leaf[i]);
+        measure_leaf(mesh, share, &mesh->leaf[i]);
     }
+    free(share);
     return PPS_OK;
 }
 

@@ -5,11 +5,31 @@
 
 #include <ppscat/tree/scene.h>
 
-#include "tree/texture.h"
+#include "tree/srgb.h"
 
 /* About the shares that a green broad leaf does not absorb; for files that give leaves no
  * colour, which then are white. */
 static const double GREEN_LEAF[3] = {0.12, 0.24, 0.06};
+
+/* The mean of a texture in linear light where the surface is; white if it is nowhere. */
+static void texture_color(const pps_texture *texture, double alpha_min, double rgb[3]) {
+    size_t n = (size_t)texture->width * (size_t)texture->height, there = 0;
+    double linear[256], sum[3] = {0};
+    for (int i = 0; i < 256; i++) {
+        linear[i] = srgb_decode(i / 255.0);
+    }
+    for (size_t t = 0; t < n; t++) {
+        const uint8_t *texel = texture->rgba + 4 * t;
+        bool here = texel[3] / 255.0 >= alpha_min;
+        there += here;
+        for (int i = 0; here && i < 3; i++) {
+            sum[i] += linear[texel[i]];
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = there ? sum[i] / (double)there : 1;
+    }
+}
 
 static double area_of(const pps_mesh *mesh, uint32_t material) {
     double area = 0;
@@ -25,8 +45,10 @@ void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics) {
         const pps_material *material = &mesh->material[m];
         const double *c = material->color;
         bool white = material->texture < 0 && c[0] >= 1 && c[1] >= 1 && c[2] >= 1;
-        double own = area_of(mesh, m), rgb[3];
-        pps_texture_mean(mesh, material, rgb);
+        double own = area_of(mesh, m), rgb[3] = {1, 1, 1};
+        if (own > 0 && material->texture >= 0) {
+            texture_color(&mesh->texture[material->texture], material->alpha_min, rgb);
+        }
         area += own;
         for (int i = 0; i < 3; i++) {
             double color = white ? GREEN_LEAF[i] : rgb[i] * c[i];

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tree/text.h"
+
 const char *pps_path_base(const char *path) {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
@@ -30,25 +32,13 @@ bool pps_path_ends(const char *path, const char *ending) {
 
 char *pps_path_beside(const char *file, const char *name) {
     size_t folder = name[0] == '/' ? 0 : (size_t)(pps_path_base(file) - file);
-    char *path = malloc(folder + strlen(name) + 1);
-    if (path) {
-        memcpy(path, file, folder);
-        strcpy(path + folder, name);
-    }
-    return path;
+    return text_join(file, folder, name);
 }
 
 /* Read to the end; a folder opens but does not read. */
 static pps_status load(FILE *file, unsigned char **bytes, size_t *n) {
-    size_t room = 0;
-    for (*n = 0;; *n += fread(*bytes + *n, 1, room - 1 - *n, file)) {
-        if (ferror(file)) {
-            return PPS_ERR_FILE;
-        }
-        if (feof(file)) {
-            (*bytes)[*n] = 0;
-            return PPS_OK;
-        }
+    size_t room = 0, got = 1;
+    for (*n = 0; got > 0; *n += got) {
         if (*n + 1 >= room) {
             room = 2 * room + 65536;
             unsigned char *more = realloc(*bytes, room);
@@ -57,7 +47,10 @@ static pps_status load(FILE *file, unsigned char **bytes, size_t *n) {
             }
             *bytes = more;
         }
+        got = fread(*bytes + *n, 1, room - 1 - *n, file);
+        (*bytes)[*n + got] = 0;
     }
+    return ferror(file) ? PPS_ERR_FILE : PPS_OK;
 }
 
 pps_status pps_path_load(const char *path, unsigned char **bytes, size_t *n) {

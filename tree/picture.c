@@ -58,7 +58,7 @@ static double auto_exposure(const pps_picture *picture) {
         largest[i] = isfinite(most) ? most : 0;
     }
     qsort(largest, n, sizeof *largest, by_size);
-    double white = (double)largest[n - 1 - n / 100];
+    double white = (double)largest[n - (n >= 100 ? n / 100 : 1)];
     white = white > 0 ? white : (double)largest[n - 1];
     free(largest);
     return white > 0 ? 1 / white : 1;

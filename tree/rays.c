@@ -1,8 +1,8 @@
 /* Rays by Embree: a scene of instances over one geometry a prototype.
  *
  * Embree computes in single precision. Prototypes are therefore stored about their own
- * centres and the scene about its centre; points that matter (hits) are found again in
- * double precision from their barycentric coordinates.
+ * centres and the scene about its centre, and lines that leave a surface start off it by
+ * more than what was rounded away.
  *
  * A scene that repeats keeps every copy of an instance that reaches into the central cell;
  * a line is cut at the cell's walls and goes on at the opposite one.
@@ -48,7 +48,9 @@ typedef struct {
 /* An instance, seen at one of the places where it repeats. */
 typedef struct {
     uint32_t instance, n_leaf_triangles;
-    double shift[2], cosine, sine; /* of its yaw */
+    double cosine, sine; /* of its yaw */
+    size_t first_leaf;
+    const uint32_t *leaf_of; /* of a triangle */
 } copy;
 
 struct pps_rays {
@@ -231,11 +233,13 @@ static void place_copy(pps_rays *rays, size_t k, const double shift[2]) {
     const pps_instance *instance = &rays->scene->instance[k];
     const prototype *p = &rays->prototype[instance->prototype];
     copy *made = &rays->copy[rays->n_copies];
-    *made = (copy){.instance = (uint32_t)k,
-                   .n_leaf_triangles = p->n_leaf_triangles,
-                   .shift = {shift[0], shift[1]},
-                   .cosine = cos(instance->yaw * DEGREE),
-                   .sine = sin(instance->yaw * DEGREE)};
+    *made =
+        (copy){.instance = (uint32_t)k,
+               .n_leaf_triangles = p->n_leaf_triangles,
+               .cosine = cos(instance->yaw * DEGREE),
+               .sine = sin(instance->yaw * DEGREE),
+               .first_leaf = rays->scene->first_leaf[k],
+               .leaf_of = rays->scene->prototype[instance->prototype].mesh->leaf_of};
     double at[3];
     pps_instance_point(instance, p->center, at);
     vec_sub(at, rays->origin, at);
@@ -358,10 +362,10 @@ void pps_rays_free(pps_rays *rays) {
 typedef struct {
     const pps_rays *rays;
     const double *direction;
-    double at[3];       /* where the piece starts, in the central cell */
-    double done, far;   /* distances from the line's origin: to there, to the end */
-    double near, piece; /* the piece is near..piece from `at` */
-    double wall[2];     /* distance from `at` to the wall ahead */
+    double at[3];     /* where the piece starts, in the central cell */
+    double done, far; /* distances from the line's origin: to there, to the end */
+    double piece;     /* length of the piece */
+    double wall[2];   /* distance from `at` to the wall ahead */
 } walk;
 
 /* What of the line lies between the heights of the scene. */
@@ -377,15 +381,30 @@ static void clip_to_layer(const pps_box *cell, const pps_line *line, walk *w) {
     w->far = fmin(w->far, out);
 }
 
+/* What of it lies in the ball about the scene. */
+static void clip_to_ball(const pps_rays *rays, const pps_line *line, walk *w) {
+    double from[3];
+    vec_sub(line->origin, rays->origin, from);
+    double b = vec_dot(from, line->direction);
+    double inside = rays->radius * rays->radius - (vec_dot(from, from) - b * b);
+    double half = sqrt(fmax(inside, 0));
+    w->done = fmax(w->done, -b - half);
+    w->far = inside > 0 ? fmin(w->far, half - b) : -1;
+}
+
+/* Distances are counted from where the line enters the scene: from a distance, single
+ * precision would lose the leaves. */
 static walk start_walk(const pps_rays *rays, const pps_line *line) {
-    walk w = {.rays = rays, .direction = line->direction, .far = line->far};
-    memcpy(w.at, line->origin, sizeof w.at);
+    walk w = {.rays = rays,
+              .direction = line->direction,
+              .done = line->near,
+              .far = line->far};
+    const double *period = rays->scene->period;
     if (!rays->periodic) {
-        w.near = line->near;
+        clip_to_ball(rays, line, &w);
+        vec_along(line->origin, w.done, line->direction, w.at);
         return w;
     }
-    const double *period = rays->scene->period;
-    w.done = line->near;
     clip_to_layer(&rays->cell, line, &w);
     w.far = fmin(w.far, w.done + MOST_PERIODS * fmax(period[0], period[1]));
     vec_along(line->origin, w.done, line->direction, w.at);
@@ -405,7 +424,7 @@ static bool cut_piece(walk *w) {
         w->wall[i] = d != 0 ? fmax(to / d, 0) : HUGE_VAL;
         w->piece = fmin(w->piece, w->wall[i]);
     }
-    return w->piece >= w->near;
+    return w->piece >= 0;
 }
 
 /* Go on behind the wall where the piece ends; false at the line's end. */
@@ -429,7 +448,6 @@ static struct RTCRay piece_ray(const walk *w) {
     return (struct RTCRay){.org_x = (float)(w->at[0] - o[0]),
                            .org_y = (float)(w->at[1] - o[1]),
                            .org_z = (float)(w->at[2] - o[2]),
-                           .tnear = (float)w->near,
                            .dir_x = (float)d[0],
                            .dir_y = (float)d[1],
                            .dir_z = (float)d[2],
@@ -503,30 +521,19 @@ static void turn(const copy *at, const double own[3], double out[3]) {
 static void describe_hit(const walk *w, const struct RTCRayHit *found, pps_hit *hit) {
     const pps_rays *rays = w->rays;
     const copy *at = &rays->copy[found->hit.instID[0]];
-    const pps_instance *instance = &rays->scene->instance[at->instance];
-    const pps_mesh *mesh = rays->scene->prototype[instance->prototype].mesh;
-    const uint32_t *corner = mesh->triangle[found->hit.primID];
-    const double *a = mesh->position[corner[0]];
-    double ab[3], ac[3], own[3];
-    vec_sub(mesh->position[corner[1]], a, ab);
-    vec_sub(mesh->position[corner[2]], a, ac);
-    hit->distance = w->done + (double)found->ray.tfar;
-    hit->u = (double)found->hit.u;
-    hit->v = (double)found->hit.v;
-    vec_cross(ab, ac, own);
-    turn(at, own, hit->normal);
+    const struct RTCHit *h = &found->hit;
+    double piece = (double)found->ray.tfar;
+    turn(at, (double[3]){(double)h->Ng_x, (double)h->Ng_y, (double)h->Ng_z},
+         hit->normal);
     vec_normalize(hit->normal);
-    vec_along(a, hit->u, ab, own);
-    vec_along(own, hit->v, ac, own);
-    turn(at, own, hit->point);
-    vec_along(instance->translation, instance->scale, hit->point, hit->point);
-    hit->point[0] += at->shift[0];
-    hit->point[1] += at->shift[1];
+    vec_along(w->at, piece, w->direction, hit->point);
+    hit->distance = w->done + piece;
+    hit->u = (double)h->u;
+    hit->v = (double)h->v;
     hit->instance = at->instance;
-    hit->triangle = found->hit.primID;
-    uint32_t leaf = mesh->leaf_of[hit->triangle];
-    hit->leaf =
-        leaf == PPS_NO_LEAF ? SIZE_MAX : rays->scene->first_leaf[at->instance] + leaf;
+    hit->triangle = h->primID;
+    uint32_t leaf = at->leaf_of[h->primID];
+    hit->leaf = leaf == PPS_NO_LEAF ? SIZE_MAX : at->first_leaf + leaf;
     hit->front = vec_dot(hit->normal, w->direction) < 0;
 }
 

@@ -22,7 +22,7 @@ typedef struct pps_hit {
     double distance;   /* from the line's origin */
     double u, v;       /* barycentric: a + u (b - a) + v (c - a) */
     double normal[3];  /* of the triangle in the scene, towards its front; unit */
-    double point[3];   /* on the triangle; in the central cell if the scene repeats */
+    double point[3];   /* in the central cell if the scene repeats */
     size_t leaf;       /* scene number, SIZE_MAX for wood */
     size_t instance;   /* of the scene */
     uint32_t triangle; /* of the instance's mesh */

@@ -10,6 +10,7 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 
+#include "tree/doubled.h"
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/read.h"
@@ -275,9 +276,9 @@ static pps_status allocate(reader *r) {
     mesh->uv = uv ? calloc(mesh->n_vertices, sizeof *mesh->uv) : NULL;
     mesh->triangle = malloc(mesh->n_triangles * sizeof *mesh->triangle);
     mesh->material_of = malloc(mesh->n_triangles * sizeof *mesh->material_of);
-    mesh->material = calloc(slots, sizeof *mesh->material);
-    mesh->texture = calloc(slots, sizeof *mesh->texture);
-    r->source = calloc(slots, sizeof *r->source);
+    mesh->material = calloc(slots + 1, sizeof *mesh->material);
+    mesh->texture = calloc(slots + 1, sizeof *mesh->texture);
+    r->source = calloc(slots + 1, sizeof *r->source);
     bool good = mesh->position && (mesh->uv || !uv) && mesh->triangle &&
                 mesh->material_of && mesh->material && mesh->texture && r->source;
     return good ? PPS_OK : PPS_ERR_MEMORY;

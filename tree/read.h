@@ -34,8 +34,4 @@ pps_status pps_read_material(reader *r, unsigned material, int use);
 /* The texture coordinates that the material's images are laid by. */
 unsigned pps_read_uv_channel(const struct aiMaterial *material);
 
-/* Leave out the triangles without area, and those on the places of one before them. Fills
- * n_doubled of a mesh that is not finished. */
-pps_status pps_mesh_drop_doubled(pps_mesh *mesh);
-
 #endif

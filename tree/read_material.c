@@ -14,6 +14,7 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/read.h"
+#include "tree/text.h"
 
 static const double CUT = 0.5; /* where formats do not say */
 
@@ -228,15 +229,10 @@ static pps_status find_texture(reader *r, const char *color, const char *opacity
     if (status) {
         return status;
     }
-    char *source = malloc(strlen(key) + 2);
+    char *source = text_join(*cuts ? "c" : " ", 1, key);
     r->source[mesh->n_textures] = source;
     *number = (int)mesh->n_textures++;
-    if (!source) {
-        return PPS_ERR_MEMORY;
-    }
-    source[0] = *cuts ? 'c' : ' ';
-    strcpy(source + 1, key);
-    return PPS_OK;
+    return source ? PPS_OK : PPS_ERR_MEMORY;
 }
 
 /* ---- the material ---- */
@@ -317,11 +313,10 @@ pps_status pps_read_material(reader *r, unsigned number, int use) {
     struct aiString name = pps_read_material_name(material);
     double factor;
     *out = (pps_material){.leaf = (use & USE_LEAF) != 0, .texture = -1};
-    out->name = malloc(name.length + 1);
+    out->name = text_copy(name.data);
     if (!out->name) {
         return PPS_ERR_MEMORY;
     }
-    memcpy(out->name, name.data, name.length + 1);
     r->mesh->n_materials++;
     read_color(material, out->color, &factor);
     return use & USE_UV ? read_texture(r, material, factor, out) : PPS_OK;

@@ -23,17 +23,20 @@ static const double CREASE = 0.4; /* cosine: sharper edges than this stay sharp 
 
 enum { MOST_SAMPLES = 16, LIGHT_SAMPLES = 16 };
 
-/* What pictures need of a prototype: smooth normals of its wood's vertices, and the mean
- * of each material's texture. */
+/* What pictures need of a prototype: smooth normals of its wood's vertices, its textures
+ * in linear light, and the mean of each material's texture. */
 typedef struct {
     double (*normal)[3], (*mean)[3];
+    float **linear;
 } dress;
 
 typedef struct {
     const pps_scene *scene;
     const pps_irradiance *irradiance;
     const pps_false_color *false_color;
-    pps_rays *rays;
+    pps_scene once; /* the scene without its repetitions */
+    pps_rays *seen,
+        *light;   /* the same, unless the scene repeats: shown once, lit amid all */
     dress *dress; /* of each prototype */
 } painter;
 
@@ -75,11 +78,23 @@ static pps_status smooth_normals(const pps_mesh *mesh, double (*normal)[3]) {
 static pps_status dress_up(const pps_mesh *mesh, dress *out) {
     out->normal = calloc(mesh->n_vertices + 1, sizeof *out->normal);
     out->mean = calloc(mesh->n_materials + 1, sizeof *out->mean);
-    if (!out->normal || !out->mean) {
+    out->linear = calloc(mesh->n_textures + 1, sizeof *out->linear);
+    if (!out->normal || !out->mean || !out->linear) {
         return PPS_ERR_MEMORY;
     }
+    for (size_t i = 0; i < mesh->n_textures; i++) {
+        out->linear[i] = pps_texture_linear(&mesh->texture[i]);
+        if (!out->linear[i]) {
+            return PPS_ERR_MEMORY;
+        }
+    }
     for (size_t m = 0; m < mesh->n_materials; m++) {
-        pps_texture_mean(mesh, &mesh->material[m], out->mean[m]);
+        int t = mesh->uv ? mesh->material[m].texture : -1;
+        out->mean[m][0] = out->mean[m][1] = out->mean[m][2] = 1;
+        if (t >= 0) {
+            pps_texture_mean(&mesh->texture[t], out->linear[t],
+                             mesh->material[m].alpha_min, out->mean[m]);
+        }
     }
     return smooth_normals(mesh, out->normal);
 }
@@ -88,15 +103,30 @@ static void painter_free(painter *p) {
     for (size_t i = 0; p->dress && i < p->scene->n_prototypes; i++) {
         free(p->dress[i].normal);
         free(p->dress[i].mean);
+        size_t n = p->scene->prototype[i].mesh->n_textures;
+        for (size_t t = 0; p->dress[i].linear && t < n; t++) {
+            free(p->dress[i].linear[t]);
+        }
+        free(p->dress[i].linear);
     }
     free(p->dress);
-    pps_rays_free(p->rays);
+    if (p->light != p->seen) {
+        pps_rays_free(p->light);
+    }
+    pps_rays_free(p->seen);
 }
 
 static pps_status painter_init(const pps_scene *scene, painter *p) {
     p->scene = scene;
     p->dress = calloc(scene->n_prototypes, sizeof *p->dress);
-    pps_status status = p->dress ? pps_rays_create(scene, &p->rays) : PPS_ERR_MEMORY;
+    p->once = *scene;
+    p->once.period[0] = p->once.period[1] = 0;
+    pps_status status = p->dress ? pps_rays_create(&p->once, &p->seen) : PPS_ERR_MEMORY;
+    if (!status && scene->period[0] > 0) {
+        status = pps_rays_create(scene, &p->light);
+    } else {
+        p->light = p->seen;
+    }
     for (size_t i = 0; i < scene->n_prototypes && !status; i++) {
         status = dress_up(scene->prototype[i].mesh, &p->dress[i]);
     }
@@ -114,6 +144,25 @@ static const pps_prototype *prototype_of(const painter *p, const pps_hit *hit) {
     return &p->scene->prototype[p->scene->instance[hit->instance].prototype];
 }
 
+/* The colour of the texture where a line hits; white where there is none. */
+static void texture_at(const painter *p, const pps_hit *hit, double rgb[3]) {
+    const pps_prototype *prototype = prototype_of(p, hit);
+    const pps_mesh *mesh = prototype->mesh;
+    int t = mesh->material[mesh->material_of[hit->triangle]].texture;
+    rgb[0] = rgb[1] = rgb[2] = 1;
+    if (mesh->uv && t >= 0) {
+        const uint32_t *corner = mesh->triangle[hit->triangle];
+        double at[2];
+        for (int i = 0; i < 2; i++) {
+            at[i] = (1 - hit->u - hit->v) * (double)mesh->uv[corner[0]][i] +
+                    hit->u * (double)mesh->uv[corner[1]][i] +
+                    hit->v * (double)mesh->uv[corner[2]][i];
+        }
+        const dress *own = &p->dress[prototype - p->scene->prototype];
+        pps_texture_at(&mesh->texture[t], own->linear[t], at[0], at[1], rgb);
+    }
+}
+
 /* (R of the face seen x its irradiance + T of the other x the other's)/pi. The optics are
  * the leaf's mean, so its texture gives the pattern only: divided by its own mean. */
 static void leaf_radiance(const painter *p, const pps_hit *hit, double rgb[3]) {
@@ -127,14 +176,18 @@ static void leaf_radiance(const painter *p, const pps_hit *hit, double rgb[3]) {
     double pattern[3];
     const double *mean = p->dress[prototype - p->scene->prototype]
                              .mean[mesh->material_of[hit->triangle]];
-    pps_texture_at(mesh, hit->triangle, hit->u, hit->v, pattern);
+    texture_at(p, hit, pattern);
+    double grey =
+        (pattern[0] + pattern[1] + pattern[2]) / (mean[0] + mean[1] + mean[2]);
     for (int c = 0; c < 3; c++) {
         int b = band_of(p->scene, c);
-        double light = b < 0
-                           ? 0
-                           : prototype->optics.reflectance[face][b] * own[b] +
-                                 prototype->optics.transmittance[other][b] * through[b];
-        rgb[c] = light / PI * (mean[c] > 0 ? pattern[c] / mean[c] : 1);
+        rgb[c] = 0;
+        if (b >= 0) {
+            double light = prototype->optics.reflectance[face][b] * own[b] +
+                           prototype->optics.transmittance[other][b] * through[b];
+            double share = p->scene->n_bands == 1 ? grey : pattern[c] / mean[c];
+            rgb[c] = light / PI * (isfinite(share) ? share : 1); /* black texture */
+        }
     }
 }
 
@@ -151,8 +204,8 @@ static void sun_on(const painter *p, const double point[3], const double geometr
     const pps_sun *sun = &p->scene->sun;
     double cosine = fmax(0, vec_dot(normal, sun->to));
     if (cosine > 0) {
-        pps_line line = pps_rays_leave(p->rays, point, geometric, sun->to);
-        cosine = pps_rays_occluded(p->rays, &line) ? 0 : cosine;
+        pps_line line = pps_rays_leave(p->light, point, geometric, sun->to);
+        cosine = pps_rays_occluded(p->light, &line) ? 0 : cosine;
     }
     for (int c = 0; c < 3; c++) {
         int b = band_of(p->scene, c);
@@ -190,7 +243,7 @@ static void light_along(const painter *p, const pps_line *line, double rgb[3]) {
     pps_hit hit;
     double point[3];
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (pps_rays_nearest(p->rays, line, &hit)) {
+    if (pps_rays_nearest(p->light, line, &hit)) {
         if (hit.leaf != SIZE_MAX) {
             leaf_radiance(p, &hit, rgb);
         }
@@ -217,7 +270,7 @@ static void irradiance_at(const painter *p, const double point[3],
         vec_along(to, across * sin(2 * PI * v), y, to);
         vec_along(to, sqrt(1 - u), normal, to);
         vec_normalize(to);
-        pps_line line = pps_rays_leave(p->rays, point, geometric, to);
+        pps_line line = pps_rays_leave(p->light, point, geometric, to);
         light_along(p, &line, light);
         for (int c = 0; c < 3; c++) {
             rgb[c] += PI / (double)n * light[c];
@@ -257,7 +310,7 @@ static void wood_radiance(const painter *p, const pps_hit *hit, const double vie
     double geometric[3], normal[3], pattern[3];
     wood_normal(p, hit, view, geometric, normal);
     irradiance_at(p, hit->point, geometric, normal, s, n, rgb);
-    pps_texture_at(mesh, hit->triangle, hit->u, hit->v, pattern);
+    texture_at(p, hit, pattern);
     double grey = 0;
     for (int c = 0; c < 3; c++) {
         grey += color[c] * pattern[c] / 3;
@@ -281,7 +334,7 @@ static void look(const painter *p, const pps_line *line, spread *s, size_t n,
                  double rgb[3]) {
     pps_hit hit;
     double point[3];
-    if (pps_rays_nearest(p->rays, line, &hit)) {
+    if (pps_rays_nearest(p->seen, line, &hit)) {
         if (hit.leaf != SIZE_MAX) {
             leaf_radiance(p, &hit, rgb);
         } else {
@@ -297,7 +350,7 @@ static void look(const painter *p, const pps_line *line, spread *s, size_t n,
 /* Leaves by their value, wood dark, the rest white. */
 static void look_false(const painter *p, const pps_line *line, double rgb[3]) {
     pps_hit hit;
-    if (!pps_rays_nearest(p->rays, line, &hit)) {
+    if (!pps_rays_nearest(p->seen, line, &hit)) {
         rgb[0] = rgb[1] = rgb[2] = 1;
     } else if (hit.leaf == SIZE_MAX) {
         rgb[0] = rgb[1] = rgb[2] = 0.04;
@@ -354,9 +407,9 @@ static void paint_pixel(const painter *p, const view *v, int samples, int width,
     double sum[3] = {0, 0, 0};
     for (int k = 0; k < samples * samples; k++) {
         double rgb[3];
-        pps_line line =
-            line_through(v, picture, width, x + (k % samples + 0.5) / samples,
-                         y + (k / samples + 0.5) / samples);
+        int column = k % samples, row = k / samples;
+        pps_line line = line_through(v, picture, width, x + (column + 0.5) / samples,
+                                     y + (row + 0.5) / samples);
         if (p->false_color) {
             look_false(p, &line, rgb);
         } else {

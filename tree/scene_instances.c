@@ -31,13 +31,25 @@ static pps_status read_prototype(const pps_json *at, const pps_scene *scene, int
     return pps_json_word(&name, words, n, &number);
 }
 
+/* The smallest power of 2 that holds n: the list's room. */
+static size_t room_for(size_t n) {
+    size_t room = 1;
+    while (room < n) {
+        room *= 2;
+    }
+    return room;
+}
+
 static pps_status grow_list(const pps_json *at, pps_scene *scene, size_t more) {
     size_t n = scene->n_instances + more;
     if (n > MOST_INSTANCES) {
         return pps_json_fail(at, "makes %zu instances; the most are %d", n,
                              MOST_INSTANCES);
     }
-    pps_instance *list = calloc(n, sizeof *list);
+    if (scene->n_instances && n <= room_for(scene->n_instances)) {
+        return PPS_OK;
+    }
+    pps_instance *list = calloc(room_for(n), sizeof *list);
     if (!list) {
         return PPS_ERR_MEMORY;
     }

@@ -10,6 +10,7 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/scene_read.h"
+#include "tree/text.h"
 
 /* ---- optics ---- */
 
@@ -266,12 +267,9 @@ pps_status pps_scene_read_prototypes(const pps_json *root, pps_scene *scene) {
     json_object_foreach(all.value, name, value) {
         pps_json at = pps_json_key(&all, name);
         pps_prototype *out = &scene->prototype[scene->n_prototypes++];
-        out->name = malloc(strlen(name) + 1);
-        if (!out->name) {
-            return PPS_ERR_MEMORY;
-        }
-        strcpy(out->name, name);
-        pps_status status = read_prototype(&at, scene, out);
+        out->name = text_copy(name);
+        pps_status status =
+            out->name ? read_prototype(&at, scene, out) : PPS_ERR_MEMORY;
         if (status) {
             return status;
         }

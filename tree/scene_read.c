@@ -11,12 +11,8 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/sun.h"
+#include "tree/text.h"
 #include "tree/vec.h"
-
-static char *copy_string(const char *s) {
-    char *copy = malloc(strlen(s) + 1);
-    return copy ? strcpy(copy, s) : NULL;
-}
 
 /* ---- bands ---- */
 
@@ -26,7 +22,7 @@ static pps_status add_band(const pps_json *at, pps_scene *scene, const char *nam
             return pps_json_fail(at, "is \"%.40s\", which comes twice", name);
         }
     }
-    char *copy = copy_string(name);
+    char *copy = text_copy(name);
     if (!copy) {
         return PPS_ERR_MEMORY;
     }
@@ -278,7 +274,7 @@ pps_status pps_scene_of_mesh(pps_mesh *mesh, pps_scene **out) {
     }
     for (int b = 0; b < 3; b++) {
         free(scene->band[b]);
-        scene->band[b] = copy_string(COLORS[b]);
+        scene->band[b] = text_copy(COLORS[b]);
         status = scene->band[b] ? status : PPS_ERR_MEMORY;
     }
     if (status) {

@@ -367,8 +367,8 @@ static pps_status branch(const pps_species *species, uint64_t seed, pps_skeleton
     double near = fmax(species->growth.kill, 1.5 * species->growth.step);
     pps_status status = colonise(species, seed, near, point, n_limbs, s);
     if (!status) {
-        status = colonise(species, seed, species->growth.kill, point + n_limbs, n_twigs,
-                          s);
+        status =
+            colonise(species, seed, species->growth.kill, point + n_limbs, n_twigs, s);
     }
     free(point);
     return status;
@@ -395,6 +395,33 @@ static void count_tips(pps_skeleton *s) {
             }
         }
     }
+}
+
+/* Stems that stood in the shade of the others, with hardly a twig, are taken away: they
+ * would be bare poles as thin as a twig. */
+static pps_status prune(pps_skeleton *s) {
+    uint32_t *now = malloc((s->n + 1) * sizeof *now), most = 0;
+    if (!now) {
+        return PPS_ERR_MEMORY;
+    }
+    for (size_t k = 0; k < s->n; k++) {
+        most = s->node[k].tips > most ? s->node[k].tips : most;
+    }
+    size_t kept = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        pps_node node = s->node[k];
+        bool foot = node.parent == PPS_NO_NODE;
+        bool gone = foot ? node.tips < most / 12 : now[node.parent] == PPS_NO_NODE;
+        now[k] = gone ? PPS_NO_NODE : (uint32_t)kept;
+        if (!gone) {
+            node.parent = foot ? PPS_NO_NODE : now[node.parent];
+            s->node[kept++] = node;
+        }
+    }
+    s->n = kept;
+    free(now);
+    count_tips(s);
+    return PPS_OK;
 }
 
 /* Steps in the directions of a moment leave kinks: each node moves to the middle of its
@@ -425,7 +452,7 @@ static pps_status smooth(pps_skeleton *s) {
     return PPS_OK;
 }
 
-/* The pipe model (Shinozaki et al. 1964) with the power that makes the thickest stem as
+/* The pipe model (SYHK64) with the power that makes the thickest stem as
  * thick as asked for: radius^power adds up over the tips. */
 static void set_radii(const pps_species *species, pps_skeleton *s) {
     double most = 2, ratio = species->wood.trunk_radius / species->wood.twig_radius;
@@ -464,7 +491,8 @@ static void simplify(const pps_species *species, pps_skeleton *s) {
             const pps_node *child = &s->node[node.main_child];
             double span[3];
             vec_sub(child->at, parent->at, span);
-            drop = parent->n_children == 1 && vec_length(span) < longest &&
+            bool flares = node.at[2] < 3 * species->wood.flare_height;
+            drop = !flares && parent->n_children == 1 && vec_length(span) < longest &&
                    off_line(node.at, parent->at, child->at) < 0.3 * node.radius + 0.004;
         }
         if (drop) {
@@ -491,7 +519,8 @@ pps_status pps_skeleton_grow(const pps_species *species, uint64_t seed,
     status = status ? status : branch(species, seed, out);
     if (!status) {
         count_tips(out);
-        status = smooth(out);
+        status = prune(out);
+        status = status ? status : smooth(out);
     }
     if (!status) {
         set_radii(species, out);

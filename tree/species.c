@@ -11,7 +11,6 @@
 
 #include <jansson.h>
 
-
 /* The species of data/species, embedded by the build: name, text. */
 typedef struct {
     const char *name, *text;
@@ -30,24 +29,23 @@ typedef struct {
 } number;
 
 static const number NUMBERS[] = {
-#define X(pointer, member, low, high) {pointer, offsetof(pps_species, member), low, high},
+#define X(pointer, member, low, high)                                                  \
+    {pointer, offsetof(pps_species, member), low, high},
 #include "tree/species.def"
 #undef X
 };
 enum { N_NUMBERS = sizeof NUMBERS / sizeof *NUMBERS };
 
 /* Counts, which must be whole. */
-static const char *const WHOLE[] = {
-    "/triangles",    "/stems/count", "/stems/forks",  "/crown/limbs",  "/crown/points",  "/tiers/count",
-    "/tiers/levels", "/wood/sides",  "/leaves/whorl", "/leaves/cluster"};
+static const char *const WHOLE[] = {"/triangles",     "/stems/count",  "/stems/forks",
+                                    "/crown/limbs",   "/crown/points", "/tiers/count",
+                                    "/tiers/levels",  "/wood/sides",   "/leaves/whorl",
+                                    "/leaves/cluster"};
 
 /* Members that are no single number. */
-static const char *const OTHERS[] = {"/summary",
-                                     "/crown/profile",
-                                     "/wood/color",
-                                     "/leaves/outline",
-                                     "/leaves/reflectance",
-                                     "/leaves/transmittance"};
+static const char *const OTHERS[] = {
+    "/summary",        "/crown/profile",      "/wood/color",
+    "/leaves/outline", "/leaves/reflectance", "/leaves/transmittance"};
 
 typedef struct {
     const char *name; /* of the file or the species, for messages */
@@ -63,7 +61,8 @@ refuse(const reader *r, const char *format, ...) {
         va_start(args, format);
         vsnprintf(what, sizeof what, format, args);
         va_end(args);
-        snprintf(r->problem->text, sizeof r->problem->text, "%.100s: %s", r->name, what);
+        snprintf(r->problem->text, sizeof r->problem->text, "%.100s: %s", r->name,
+                 what);
     }
     return PPS_ERR_FORMAT;
 }
@@ -196,8 +195,9 @@ static pps_status check_pairs_of_numbers(const reader *r, const pps_species *s) 
     }
     for (int i = 0; i < 3; i++) {
         if (s->leaves.reflectance[i] + s->leaves.transmittance[i] > 1) {
-            return refuse(r, "/leaves/transmittance/%d: with the reflectance it is more "
-                             "than 1",
+            return refuse(r,
+                          "/leaves/transmittance/%d: with the reflectance it is more "
+                          "than 1",
                           i);
         }
     }
@@ -275,8 +275,8 @@ static pps_status no_such_species(const char *name, pps_problem *problem) {
         size_t at = (size_t)snprintf(problem->text, sizeof problem->text,
                                      "no species '%.60s'; there are", name);
         for (size_t i = 0; i < N_BUILTIN && at < sizeof problem->text; i++) {
-            at += (size_t)snprintf(problem->text + at, sizeof problem->text - at, "%s %s",
-                                   i ? "," : "", BUILTIN[i].name);
+            at += (size_t)snprintf(problem->text + at, sizeof problem->text - at,
+                                   "%s %s", i ? "," : "", BUILTIN[i].name);
         }
         if (at < sizeof problem->text) {
             snprintf(problem->text + at, sizeof problem->text - at,

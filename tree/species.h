@@ -30,7 +30,8 @@ typedef struct pps_species {
         double color[3];
     } wood;
     struct {
-        double whorl, cup, curl, cluster, divergence, phase, forward[2], stalk[2];
+        double whorl, cup, curl, heart, cluster, divergence, phase, forward[2],
+            stalk[2];
         double upright, pitch, jitter, size_spread, wood_below;
         size_t n_outline;
         double outline[PPS_OUTLINE_POINTS][2]; /* counter-clockwise about the base */

@@ -1,4 +1,4 @@
-/* Where the sun stands: Meeus, Astronomical Algorithms (2nd ed. 1998), chapter 25, low
+/* Where the sun stands: Meeus98, chapter 25, low
  * accuracy (0.01 degree), with the apparent sidereal time of chapter 12.
  *
  * Geometric: refraction, which lifts the sun by 0.02 degree at 40 degrees of elevation and
@@ -39,9 +39,9 @@ static double noon_of(int year, int month, int day) {
         year--;
         month += 12;
     }
-    int century = year / 100;
-    return floor(365.25 * (year + 4716)) + floor(30.6001 * (month + 1)) + day + 2 -
-           century + century / 4 - 1524;
+    int leaps = 2 - year / 100 + year / 400; /* of the Gregorian calendar */
+    return floor(365.25 * (year + 4716)) + floor(30.6001 * (month + 1)) + day + leaps -
+           1524;
 }
 
 static int days_in(int year, int month) {

@@ -20,7 +20,8 @@ static bool same_octant(const pps_sweep_group *g, const int sign[3]) {
     return g->sign[0] == sign[0] && g->sign[1] == sign[1] && g->sign[2] == sign[2];
 }
 
-static void add_direction(pps_sweeper *sweeper, int j, const double to[3], double gap) {
+static void add_direction(pps_sweeper *sweeper, int j, const double to[3], double weight,
+                          double gap) {
     int sign[3];
     for (int i = 0; i < 3; i++) {
         sign[i] = to[i] > 0 ? -1 : 1; /* of travel */
@@ -38,9 +39,10 @@ static void add_direction(pps_sweeper *sweeper, int j, const double to[3], doubl
     }
     int d = g->n++;
     g->direction[d] = j;
+    g->weight[d] = (float)weight;
     for (int i = 0; i < 3; i++) {
         g->twice[i][d] = (float)(2 * fabs(to[i]));
-        g->to[i][d] = (float)to[i];
+        g->net[i][d] = (float)(weight * to[i]);
         if (i < 2) { /* downward light lands there, upward light comes from there */
             double shift = -gap * to[i] / fmax(fabs(to[2]), 1e-3);
             double far = sign[2] < 0 ? shift : -shift;
@@ -76,7 +78,7 @@ static pps_status make_faces(pps_sweeper *s) {
 
 pps_status pps_sweeper_init(pps_sweeper *sweeper, const int n_cells[3], bool periodic,
                             const float *depth, int n, const double (*to)[3],
-                            double gap) {
+                            const double *weight, double gap) {
     *sweeper = (pps_sweeper){.periodic = periodic, .depth = depth};
     memcpy(sweeper->n, n_cells, sizeof sweeper->n);
     if (n > PPS_SWEEP_DIRECTIONS_MAX) {
@@ -85,7 +87,7 @@ pps_status pps_sweeper_init(pps_sweeper *sweeper, const int n_cells[3], bool per
     for (int half = 0; half < 2; half++) {
         for (int j = 0; j < n; j++) {
             if ((to[j][2] > 0) == (half == 0)) {
-                add_direction(sweeper, j, to[j], gap);
+                add_direction(sweeper, j, to[j], weight[j], gap);
             }
         }
         sweeper->n_down = half == 0 ? sweeper->n_groups : sweeper->n_down;
@@ -148,7 +150,7 @@ static void land(const pps_sweeper *s, const pps_sweep_group *g, pps_bands *fall
             for (int d = 0; d < g->n; d++, face++) {
                 long column = ground_column(s, g, d, x, y);
                 if (column >= 0) {
-                    fall[column] += pps_bands_all(g->twice[2][d] / 2) * *face;
+                    fall[column] += g->weight[d] * g->twice[2][d] / 2 * *face;
                 }
             }
         }
@@ -204,9 +206,9 @@ sweep_row(const int n, const pps_sweeper *s, const pps_sweep_group *g,
             in_x[d] = pps_bands_at_least_0(twice - in_x[d]);
             in_y[d] = pps_bands_at_least_0(twice - in_y[d]);
             in_z[d] = pps_bands_at_least_0(twice - in_z[d]);
-            total += intensity;
+            total += g->weight[d] * intensity;
             for (int k = 0; flux && k < 3; k++) {
-                net[k] += g->to[k][d] * intensity;
+                net[k] += g->net[k][d] * intensity;
             }
         }
         sweep->sum[c] += total;

@@ -26,7 +26,8 @@ enum { PPS_SWEEP_WIDTH = 4, PPS_SWEEP_DIRECTIONS_MAX = 64 };
 typedef struct pps_sweep_group {
     int n, direction[PPS_SWEEP_WIDTH], sign[3];
     float twice[3][PPS_SWEEP_WIDTH]; /* 2 |cosine| */
-    float to[3][PPS_SWEEP_WIDTH];    /* where the light comes from */
+    float weight[PPS_SWEEP_WIDTH];   /* share of the sphere */
+    float net[3][PPS_SWEEP_WIDTH];   /* weight times where the light comes from */
     int shift[2][PPS_SWEEP_WIDTH];   /* cells travelled between grid and ground */
     pps_bands *x_face, *y_face;      /* what enters by the sides; periodic: kept */
     pps_bands *z_face;               /* the plane that moves through the grid */
@@ -42,10 +43,11 @@ typedef struct pps_sweeper {
     size_t n_sides; /* how many of faces, from the first on, are those of the sides */
 } pps_sweeper;
 
-/* n directions to where light comes from; gap: from the grid to the ground, in cells. */
+/* n directions to where light comes from, with their shares of the sphere; gap: from the
+ * grid to the ground, in cells. */
 pps_status pps_sweeper_init(pps_sweeper *sweeper, const int n_cells[3], bool periodic,
                             const float *depth, int n, const double (*to)[3],
-                            double gap);
+                            const double *weight, double gap);
 void pps_sweeper_clear(pps_sweeper *sweeper);
 
 /* What one half of the directions, downward or upward, carries. */
@@ -53,9 +55,9 @@ typedef struct pps_sweep {
     const pps_bands *source; /* per cell: depth times what is scattered */
     pps_bands top, side;     /* enters there (side: open grids) */
     const pps_bands *ground; /* per column, enters from below; NULL: `side` */
-    pps_bands *sum;          /* per cell: sum of I_j */
-    pps_bands *flux;         /* [3 * cell + axis] sum of I_j omega_j, or NULL */
-    pps_bands *fall;         /* per column of ground: + |cos| I_j, or NULL */
+    pps_bands *sum;          /* per cell: + mean of I_j */
+    pps_bands *flux;         /* [3 * cell + axis]: + mean of I_j omega_j, or NULL */
+    pps_bands *fall;         /* per column of ground: + mean of |cos| I_j, or NULL */
 } pps_sweep;
 
 /* From the plane that the last sweep ended in, first band: what of direction d of a

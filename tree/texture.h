@@ -6,13 +6,15 @@
 
 #include <ppscat/tree/mesh.h>
 
-/* Linear rgb of a mesh's surface at barycentric (u, v) of a triangle, between texels in
- * proportion, repeated; white where the material has no texture. */
-void pps_texture_at(const pps_mesh *mesh, size_t triangle, double u, double v,
-                    double rgb[3]);
+/* A texture's colours in linear light, rgb[3 * (y * width + x)]; NULL: no memory. */
+float *pps_texture_linear(const pps_texture *texture);
 
-/* Its mean over the texels that are there (alpha >= alpha_min). */
-void pps_texture_mean(const pps_mesh *mesh, const pps_material *material,
+/* Their mean over the texels that are there (alpha >= alpha_min). */
+void pps_texture_mean(const pps_texture *texture, const float *linear, double alpha_min,
                       double rgb[3]);
+
+/* At (u, v), v up: between texels in proportion, repeated with period 1. */
+void pps_texture_at(const pps_texture *texture, const float *linear, double u, double v,
+                    double rgb[3]);
 
 #endif

@@ -11,6 +11,7 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/srgb.h"
+#include "tree/text.h"
 
 /* ---- OBJ ---- */
 
@@ -156,24 +157,19 @@ typedef struct {
     const float *color;
     pps_problem *problem;
     size_t n;
-    char **name; /* finished, in the order of renaming */
+    char *(*name)[2]; /* final and .part, in the order of renaming */
 } saving;
 
 /* Of name and ".part". */
 static char *part_of(const char *name) {
-    char *part = malloc(strlen(name) + sizeof ".part");
-    return part ? strcat(strcpy(part, name), ".part") : NULL;
+    return text_join(name, strlen(name), ".part");
 }
 
 /* STEM.mtl, STEM_0.png ... of the mesh file's path. */
 static char *companion(const char *path, const char *format, size_t number) {
-    size_t stem = (size_t)(pps_path_ending(path) - path);
-    char *name = malloc(stem + 32);
-    if (name) {
-        memcpy(name, path, stem);
-        snprintf(name + stem, 32, format, number);
-    }
-    return name;
+    char ending[32];
+    snprintf(ending, sizeof ending, format, number);
+    return text_join(path, (size_t)(pps_path_ending(path) - path), ending);
 }
 
 typedef pps_status writer(FILE *file, const saving *s, size_t material);
@@ -207,7 +203,8 @@ static pps_status save(saving *s, char *name, writer *write, size_t material) {
         free(name);
         return PPS_ERR_MEMORY;
     }
-    s->name[s->n++] = name;
+    s->name[s->n][0] = name;
+    s->name[s->n++][1] = part;
     errno = 0;
     FILE *file = fopen(part, "wb");
     pps_status status = file ? write(file, s, material) : PPS_ERR_FILE;
@@ -220,7 +217,6 @@ static pps_status save(saving *s, char *name, writer *write, size_t material) {
     if (status == PPS_ERR_FILE) {
         pps_complain(s->problem, status, "%s: %s", part, strerror(errno));
     }
-    free(part);
     return status;
 }
 
@@ -237,8 +233,7 @@ static pps_status save_all(saving *s) {
         status = save(s, companion(s->path, ".mtl", 0), as_mtl, 0);
     }
     if (!status) {
-        char *name = malloc(strlen(s->path) + 1);
-        status = save(s, name ? strcpy(name, s->path) : NULL, obj ? as_obj : as_ply, 0);
+        status = save(s, text_copy(s->path), obj ? as_obj : as_ply, 0);
     }
     return status;
 }
@@ -246,17 +241,16 @@ static pps_status save_all(saving *s) {
 /* To the final names if all went well, the mesh itself last; else away with the parts. */
 static pps_status settle(saving *s, pps_status status) {
     for (size_t i = 0; i < s->n; i++) {
-        char *part = part_of(s->name[i]);
-        if (part && !status && rename(part, s->name[i])) {
-            status = pps_complain(s->problem, PPS_ERR_FILE, "%s: %s", s->name[i],
-                                  strerror(errno));
+        const char *name = s->name[i][0], *part = s->name[i][1];
+        if (!status && rename(part, name)) {
+            status =
+                pps_complain(s->problem, PPS_ERR_FILE, "%s: %s", name, strerror(errno));
         }
-        if (part && status) {
+        if (status) {
             remove(part);
         }
-        status = part || status ? status : PPS_ERR_MEMORY;
-        free(part);
-        free(s->name[i]);
+        free(s->name[i][0]);
+        free(s->name[i][1]);
     }
     return status;
 }

@@ -75,7 +75,7 @@ static const struct {
     {"field -j 0", "--jobs", "'0'", "from 1"},
     {"field -j two", "--jobs", "two", "from 1"},
     {"field --progress loud", "--progress", "loud", "never"},
-    {"field --resume", "--resume", "not there yet", ""},
+    {"field --resume", "--resume", "-o FILE", ""},
     {"field --resume=yes", "--resume", "no value", ""},
     {"field -o ''", "--output", "empty", ""},
     {"field -o nowhere/field.csv", "--output", "nowhere/field.csv", "No such file"},

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plants.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,5 +88,33 @@ pps_scene *layer_scene(double leaf_area_index, uint32_t n, uint64_t seed) {
     assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
     pps_scene *scene = scene_of(mesh);
     scene->period[0] = scene->period[1] = 1;
+    return scene;
+}
+
+pps_scene *three_bands(bool periodic, bool ground) {
+    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 3, 1000, 4);
+    pps_mesh *mesh = scene->prototype[0].mesh;
+    for (size_t i = 0; i < 40; i++) { /* some of the leaves become wood */
+        mesh->leaf_of[mesh->n_triangles - 1 - i] = PPS_NO_LEAF;
+    }
+    mesh->n_leaves -= 20;
+    scene->n_bands = 3;
+    pps_leaf_optics *o = &scene->prototype[0].optics;
+    const double r[3] = {0.1, 0.5, 0.3}, t[3] = {0.05, 0.1, 0.6};
+    for (int b = 0; b < 3; b++) {
+        o->reflectance[0][b] = o->reflectance[1][b] = r[b];
+        o->transmittance[0][b] = o->transmittance[1][b] = t[b];
+        scene->sun.irradiance[b] = 1 + b;
+        scene->sky.zenith[b] = 0.3 - 0.1 * b;
+        scene->sky.horizon[b] = 0.1 * b;
+        scene->sky.below[b] = 0.2;
+        scene->ground.reflectance[b] = 0.2 + 0.1 * b;
+    }
+    const double to[3] = {1 / sqrt(1.89), 0.5 / sqrt(1.89), 0.8 / sqrt(1.89)};
+    memcpy(scene->sun.to, to, sizeof to);
+    scene->ground.present = ground;
+    scene->ground.height = -1.2;
+    scene->period[0] = scene->period[1] = periodic ? 2.3 : 0;
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
     return scene;
 }

@@ -30,4 +30,8 @@ pps_scene *crown_scene(pps_crown_shape shape, double leaf_area_index, uint32_t n
  * random orientation, `leaf_area_index` of them over each other. */
 pps_scene *layer_scene(double leaf_area_index, uint32_t n, uint64_t seed);
 
+/* A clumped crown, some of it wood, lit by sun and sky in three bands that differ in all
+ * their optics; over a ground or not. */
+pps_scene *three_bands(bool periodic, bool ground);
+
 #endif

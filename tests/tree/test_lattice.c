@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -137,6 +138,7 @@ static void a_column_is_the_exact_slab(void **state) {
                 net = fmax(
                     net, fabs((double)field->flux[3 * at + 2] - (flux.down - flux.up)));
             }
+            if(getenv("DBG")) printf("w %g mu0 %g albedo %g: rms %.4f net %.4f sweeps %d\n", w, mu0, albedo[k], sqrt(error/size), net, field->sweeps);
             assert_true(sqrt(error / size) < 0.03);
             assert_close(net, 0, 0, 0.01);
             pps_model_free(model);

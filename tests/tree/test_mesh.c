@@ -66,6 +66,28 @@ static void triangles_that_share_an_edge_are_one_leaf(void **state) {
     pps_mesh_free(mesh);
 }
 
+/* Two cards that cross in a common line, each cut along it. */
+static void crossed_cards_are_two_leaves(void **state) {
+    (void)state;
+    square at[] = {{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}};
+    pps_mesh *mesh = squares(4, at);
+    for (int k = 2; k < 4; k++) { /* stand these two up on the line x = 1 */
+        for (int c = 0; c < 4; c++) {
+            double *p = mesh->position[4 * k + c];
+            p[2] = k == 2 ? 1 - p[0] : -p[0];
+            p[0] = 1;
+        }
+    }
+    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
+    assert_int_equal(mesh->n_leaves, 2);
+    for (int i = 0; i < 2; i++) {
+        assert_close(mesh->leaf[i].area, 2, 1e-15, 0);
+        assert_close(fabs(mesh->leaf[i].normal[i ? 0 : 2]), 1, 1e-15, 0);
+        assert_close(mesh->leaf[i].center[0], 1, 1e-15, 0);
+    }
+    pps_mesh_free(mesh);
+}
+
 static void foliage_in_one_piece_falls_into_triangles(void **state) {
     (void)state;
     enum { N = PPS_LEAF_TRIANGLES / 2 };
@@ -234,6 +256,7 @@ static void leaves_of_instances_are_placed_turned_and_scaled(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_that_share_an_edge_are_one_leaf),
+        cmocka_unit_test(crossed_cards_are_two_leaves),
         cmocka_unit_test(foliage_in_one_piece_falls_into_triangles),
         cmocka_unit_test(bad_indices_are_refused),
         cmocka_unit_test(alpha_counts_in_the_leaf_area),

@@ -40,6 +40,8 @@ PPS_API pps_status pps_light_field_solve(const pps_light_model *model,
                                          const pps_scene *scene, const pps_cells *cells,
                                          const pps_light_options *options,
                                          pps_light_field **field);
+/* Let the next solve start from no light; what is made once a scene stays. */
+PPS_API void pps_light_field_forget(pps_light_field *field);
 PPS_API void pps_light_field_free(pps_light_field *field); /* NULL is fine */
 
 /* Irradiance of every leaf from a field, with the direct light among `sources` (0: all).

@@ -36,29 +36,38 @@ PPS_API void pps_irradiance_free(pps_irradiance *irradiance); /* NULL is fine */
 
 typedef struct pps_trace_options {
     uint64_t rays, seed; /* 0 rays: 1000000 */
-    int bounces;         /* the most scatterings a ray makes; 0: as many as it lives */
-    int threads;         /* 0: all cores; never changes the answer */
-    unsigned sources;    /* pps_light_source, added; 0: all */
-    /* Called now and then with done and total; stops the work by returning false. */
+    int bounces;      /* the most scatterings a ray makes, by leaves or ground, before
+                            it is absorbed where it arrives; 0: as many as it lives */
+    int threads;      /* 0: all cores; never changes the answer */
+    unsigned sources; /* pps_light_source, added; 0: all. Without indirect light
+                            nothing is scattered */
+    /* Called now and then, from the calling thread, with done and total; stops the work
+     * by returning false. */
     bool (*progress)(void *user, uint64_t done, uint64_t total);
     void *user;
 } pps_trace_options;
 
-/* Where the launched power went, a band each; launched = absorbed by leaves, wood and
- * ground + escaped, exactly but for rounding and roulette. */
+/* Where the launched power went, a band each. Power is irradiance times m^2:
+ *     launched + chance = leaves + wood + ground + escaped   (to rounding, 1e-12)
+ * `chance` is what roulette, and the choice of a way where bands differ, has added (or
+ * taken, < 0): 0 in the mean. In an open scene light is launched at the ball about all that
+ * is in it; over a ground also what comes from the ground around. */
 typedef struct pps_energy {
     double launched[PPS_BANDS_MAX], leaves[PPS_BANDS_MAX], wood[PPS_BANDS_MAX],
-        ground[PPS_BANDS_MAX], escaped[PPS_BANDS_MAX];
+        ground[PPS_BANDS_MAX], escaped[PPS_BANDS_MAX], chance[PPS_BANDS_MAX];
 } pps_energy;
 
-/* Light tracing with all bounces. energy may be NULL. CANCELLED when stopped. */
+/* Light tracing with all bounces. Wood is black. In fields of few rays: a face that none
+ * has met has irradiance 0 and the standard error of one ray. energy may be NULL. ARGUMENT:
+ * more than 2^40 rays, an unknown source; CANCELLED when stopped. */
 PPS_API pps_status pps_trace_light(const pps_scene *scene,
                                    const pps_trace_options *options,
                                    pps_irradiance **out, pps_energy *energy);
 
 /* The second reference: from every leaf in `leaf` (numbers in the scene, n of them; NULL:
- * all) `samples` paths a face are gathered backwards. rays and seed as above. Leaves that
- * were not asked for are NaN. */
+ * all) `samples` >= 1 paths a face go backwards. Options as above; `rays` does not count,
+ * and progress is in leaves. Leaves that were not asked for are NaN; the errors of one
+ * sample are infinite. */
 PPS_API pps_status pps_gather_light(const pps_scene *scene, size_t n,
                                     const size_t *leaf, int samples,
                                     const pps_trace_options *options,

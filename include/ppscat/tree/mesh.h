@@ -75,7 +75,9 @@ typedef struct pps_mesh_size {
 
 /* From raw triangles to a mesh: `position`, `triangle`, `material_of` and `material` (and
  * uv, texture) are set; groups the triangles into leaves, puts them in order, and fills
- * leaf_of and leaf. Vertices at the same place are one for what is connected. A piece of
+ * leaf_of and leaf. Vertices at the same place are one for what is connected; where more
+ * than two triangles meet at an edge, those within 30 degrees are (crossed cards are two
+ * leaves). A piece of
  * more than PPS_LEAF_TRIANGLES triangles is foliage without leaves of its own: each of its
  * triangles is then a leaf. MEMORY; ARGUMENT: an index out of range, or no triangle. */
 enum { PPS_LEAF_TRIANGLES = 64 };
@@ -113,8 +115,9 @@ typedef struct pps_mesh_read_options {
  * other formats by the opacity image (its alpha channel, else its luminance) or else by
  * the colour image's alpha channel, cut at 0.5. Textures are PNG or JPEG.
  *
- * Of triangles on the same three places one is kept: double-sided cards made of two are
- * one leaf. Triangles without area are left out.
+ * Of triangles on the same three places one is kept, and of a flat quadrangle that is
+ * covered from both sides the first two: double-sided cards are one leaf (n_doubled says
+ * how many triangles went). Triangles without area are left out.
  *
  * FILE: this file, or one it names, cannot be read; FORMAT: not a mesh, or empty;
  * ARGUMENT: nothing matches `leaf` (the problem lists the names), or a bad option.

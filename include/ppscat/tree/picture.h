@@ -38,8 +38,9 @@ PPS_API void pps_camera_fit(const pps_scene *scene, double azimuth, double eleva
  * (R E + T' E')/pi: its own reflectance and irradiance, the other face's transmittance and
  * irradiance, times its texture over the texture's mean. Wood (its colour) and ground take
  * the sun where they see it and, by a few rays, the light of sky and leaves. Bands are red,
- * green, blue in order; one band is grey. Cells of a scene that repeats are all seen.
- * ARGUMENT: irradiance of another scene, samples, or a camera that looks nowhere. */
+ * green, blue in order; one band is grey. A scene that repeats is shown once, in the light
+ * it has among its copies. MEMORY; UNSUPPORTED: Embree will not run here; ARGUMENT:
+ * irradiance of another scene, samples, or a camera that looks nowhere. */
 PPS_API pps_status pps_render(const pps_scene *scene, const pps_irradiance *irradiance,
                               const pps_camera *camera, int samples,
                               pps_picture *picture);

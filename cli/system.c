@@ -1,0 +1,62 @@
+/* What the program asks of the system: time, cores, signals.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#define _GNU_SOURCE /* sched_getaffinity: what taskset, a cgroup or Slurm leaves us */
+#include "system.h"
+
+#include <sched.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+static const int watched[] = {SIGINT, SIGTERM, SIGHUP};
+enum { N_WATCHED = sizeof watched / sizeof watched[0] };
+
+static volatile sig_atomic_t caught;
+
+double system_seconds(void) {
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int system_cores(void) {
+    cpu_set_t set;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        cores = CPU_COUNT(&set);
+    return cores > 1 ? (int)cores : 1;
+}
+
+static void note(int signal_number) { caught = signal_number; }
+
+void system_watch_signals(void) {
+    struct sigaction before, ours = {.sa_handler = note, .sa_flags = (int)SA_RESETHAND};
+
+    sigemptyset(&ours.sa_mask);
+    for (int i = 0; i < N_WATCHED; i++) {
+        if (sigaction(watched[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(watched[i], &ours, NULL);
+    }
+}
+
+int system_signal(void) { return caught; }
+
+void system_die(void) {
+    signal(caught, SIG_DFL);
+    raise(caught);
+    _exit(128 + caught);
+}
+
+void system_shield(bool on) {
+    sigset_t set;
+
+    sigemptyset(&set);
+    for (int i = 0; i < N_WATCHED; i++)
+        sigaddset(&set, watched[i]);
+    pthread_sigmask(on ? SIG_BLOCK : SIG_UNBLOCK, &set, NULL);
+}

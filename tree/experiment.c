@@ -1,0 +1,298 @@
+/* Light models against Monte Carlo, category by category.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <ppscat/tree/experiment.h>
+
+#include "tree/light_model.h"
+#include "tree/vec.h"
+
+static const double PI = 3.14159265358979323846;
+static const double DEFAULT_BIN = 0.5;
+enum { DEFAULT_RAYS = 2000000 };
+static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category */
+
+/* ---- categories ---- */
+
+/* A leaf, as the averages see it. */
+typedef struct {
+    long category;    /* depth and thickness in bins, packed */
+    double triangles; /* its weight */
+    bool turned;      /* its back is the face towards the light */
+    size_t leaf;
+} member;
+
+static int by_category(const void *a, const void *b) {
+    const member *p = a, *q = b;
+    if (p->category != q->category) {
+        return p->category < q->category ? -1 : 1;
+    }
+    return (p->leaf > q->leaf) - (p->leaf < q->leaf);
+}
+
+static void fill_member(const pps_scene *scene, const pps_cells *cells, double bin,
+                        const double axis[3], size_t i, member *m) {
+    pps_scene_leaf at;
+    pps_scene_leaf_at(scene, i, &at);
+    const pps_mesh *mesh = scene->prototype[scene->instance[at.instance].prototype].mesh;
+    size_t c = cells->cell_of[i];
+    double d = cells->sun_depth[c], w = d + cells->sun_behind[c];
+    *m = (member){.category = (long)floor(d / bin) * 100000 + (long)floor(w / bin),
+                  .triangles = mesh->leaf[at.leaf].n_triangles,
+                  .turned = vec_dot(at.normal, axis) < 0,
+                  .leaf = i};
+}
+
+/* Leaves in the order of their categories. The light's axis is the sun's, or the zenith
+ * where there is no sun. */
+static member *sort_leaves(const pps_scene *scene, const pps_cells *cells, double bin) {
+    member *members = malloc((scene->n_leaves + 1) * sizeof *members);
+    double sun = 0, zenith[3] = {0, 0, 1};
+    for (int b = 0; b < scene->n_bands; b++) {
+        sun = fmax(sun, scene->sun.irradiance[b]);
+    }
+    for (size_t i = 0; members && i < scene->n_leaves; i++) {
+        fill_member(scene, cells, bin, sun > 0 ? scene->sun.to : zenith, i, &members[i]);
+    }
+    if (members) {
+        qsort(members, scene->n_leaves, sizeof *members, by_category);
+    }
+    return members;
+}
+
+/* Sums over a category: of model and reference, [0] towards the light, [1] away. */
+typedef struct {
+    double triangles, model[2], truth[2];
+} category;
+
+static void add_leaf(category *sum, const member *m, const pps_irradiance *model,
+                     const pps_irradiance *truth, size_t at) {
+    const pps_irradiance *both[2] = {model, truth};
+    for (int k = 0; k < 2; k++) {
+        double *out = k == 0 ? sum->model : sum->truth;
+        double front = both[k]->front[at], back = both[k]->back[at];
+        out[0] += m->triangles * (m->turned ? back : front);
+        out[1] += m->triangles * (m->turned ? front : back);
+    }
+    sum->triangles += m->triangles;
+}
+
+/* Squared errors and squares of the reference, so far. */
+typedef struct {
+    double category[2], by_count[2], faces[2];
+    int n;
+} squares;
+
+static void add_category(squares *s, const category *c) {
+    double n = c->triangles, model[2], truth[2];
+    for (int f = 0; f < 2; f++) {
+        model[f] = c->model[f] / n;
+        truth[f] = c->truth[f] / n;
+        s->faces[0] += n * pow(model[f] - truth[f], 2);
+        s->faces[1] += n * pow(truth[f], 2);
+    }
+    double error = pow(model[0] + model[1] - truth[0] - truth[1], 2);
+    double size = pow(truth[0] + truth[1], 2);
+    s->category[0] += error;
+    s->category[1] += size;
+    s->by_count[0] += n * error;
+    s->by_count[1] += n * size;
+    s->n++;
+}
+
+static double root_ratio(const double s[2]) { return s[1] > 0 ? sqrt(s[0] / s[1]) : 0; }
+
+static void score_band(const pps_scene *scene, const member *members,
+                       const pps_irradiance *model, const pps_irradiance *truth, int band,
+                       pps_score *score) {
+    squares level[PPS_SCORE_LEVELS] = {0};
+    double sum[2] = {0, 0};
+    for (size_t i = 0, first = 0; i < scene->n_leaves; first = i) {
+        category c = {0};
+        for (; i < scene->n_leaves && members[i].category == members[first].category;
+             i++) {
+            size_t at = members[i].leaf * (size_t)scene->n_bands + (size_t)band;
+            add_leaf(&c, &members[i], model, truth, at);
+        }
+        sum[0] += c.model[0] + c.model[1];
+        sum[1] += c.truth[0] + c.truth[1];
+        for (int k = 0; k < PPS_SCORE_LEVELS; k++) {
+            if (c.triangles >= LEVEL[k]) {
+                add_category(&level[k], &c);
+            }
+        }
+    }
+    score->brightness = sum[0] / sum[1];
+    for (int k = 0; k < PPS_SCORE_LEVELS; k++) {
+        score->category[k] = root_ratio(level[k].category);
+        score->by_count[k] = root_ratio(level[k].by_count);
+        score->faces[k] = root_ratio(level[k].faces);
+        score->categories[k] = level[k].n;
+    }
+}
+
+/* ---- contenders ---- */
+
+static double now(void) {
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Solve and light the leaves; a second solve is timed, for what is made once is made. */
+static pps_status run_model(const pps_contender *c, const pps_scene *scene,
+                            const pps_cells *cells, double *seconds,
+                            pps_irradiance **out) {
+    pps_light_field *field = NULL;
+    if (!c->model->ops->solve) {
+        double start = now();
+        pps_status status = pps_light_model_run(c->model, scene, cells, &c->options, out);
+        *seconds = now() - start;
+        return status;
+    }
+    pps_status status =
+        pps_light_field_solve(c->model, scene, cells, &c->options, &field);
+    if (!status) {
+        double start = now();
+        pps_light_field_forget(field);
+        status = pps_light_field_solve(c->model, scene, cells, &c->options, &field);
+        *seconds = now() - start;
+    }
+    if (!status) {
+        status = pps_light_field_leaves(field, scene, cells, c->options.sources, out);
+    }
+    pps_light_field_free(field);
+    return status;
+}
+
+static double cells_with_leaves(const pps_cells *cells) {
+    double n = 0;
+    for (size_t c = 0; c < cells->n_cells; c++) {
+        n += cells->area[c] > 0;
+    }
+    return n;
+}
+
+pps_status pps_score_models(const pps_scene *scene, const pps_cells *cells,
+                            const pps_irradiance *reference, double bin, size_t n,
+                            const pps_contender *contender, pps_score *score) {
+    if (!scene || !cells || !reference || reference->n_leaves != scene->n_leaves ||
+        reference->n_bands != scene->n_bands || !(bin >= 0)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    member *members = sort_leaves(scene, cells, bin > 0 ? bin : DEFAULT_BIN);
+    pps_status status = members ? PPS_OK : PPS_ERR_MEMORY;
+    size_t bands = (size_t)scene->n_bands;
+    for (size_t i = 0; i < n && !status; i++) {
+        pps_irradiance *model = NULL;
+        double seconds = 0;
+        status = run_model(&contender[i], scene, cells, &seconds, &model);
+        for (size_t b = 0; b < bands && !status; b++) {
+            pps_score *s = &score[i * bands + b];
+            score_band(scene, members, model, reference, (int)b, s);
+            s->seconds_per_cell = seconds / cells_with_leaves(cells);
+        }
+        pps_irradiance_free(model);
+    }
+    free(members);
+    return status;
+}
+
+#define ROW(label, id, ...) {label, &pps_light_##id, {__VA_ARGS__}}
+#define MODEL(name) extern const pps_light_model pps_light_##name;
+#include "tree/models.def"
+#undef MODEL
+
+static const pps_contender contenders[] = {
+    ROW("SPPG", spp_printed, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("SPP", spp_printed, .compensate = PPS_COMPENSATE_NONE),
+    ROW("SS", ss, .compensate = PPS_COMPENSATE_NONE),
+    ROW("SPPG, printed G", spp_printed, .compensate = PPS_COMPENSATE_PRINTED),
+    ROW("SPPG, kappa 1", spp, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("SPP, kappa 1", spp, .compensate = PPS_COMPENSATE_NONE),
+    ROW("hemispheric, G", hemispheric, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("hemispheric", hemispheric, .compensate = PPS_COMPENSATE_NONE),
+    ROW("march-g", march_g, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("self-consistent", self_consistent, .compensate = PPS_COMPENSATE_NONE),
+    ROW("lattice", lattice, .compensate = PPS_COMPENSATE_NONE),
+};
+
+const pps_contender *pps_contender_table(size_t *n) {
+    *n = sizeof contenders / sizeof *contenders;
+    return contenders;
+}
+
+/* ---- crowns ---- */
+
+static pps_status grow_scene(const pps_experiment *e, pps_scene **out) {
+    pps_mesh *mesh;
+    *out = NULL;
+    if (e->n_bands < 1 || e->n_bands > PPS_BANDS_MAX || !(e->period >= 0) ||
+        !(e->zenith >= 0 && e->zenith < 90)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    pps_status status = pps_crown_grow(&e->crown, &mesh);
+    pps_mesh_size size;
+    if (!status) {
+        pps_mesh_measure(mesh, &size);
+        status = pps_scene_single(mesh, e->albedo[0], out);
+    }
+    if (status) {
+        return status;
+    }
+    pps_scene *scene = *out;
+    scene->n_bands = e->n_bands;
+    scene->sun.to[0] = sin(e->zenith * PI / 180);
+    scene->sun.to[2] = cos(e->zenith * PI / 180);
+    scene->period[0] = scene->period[1] = e->period * size.radius;
+    for (int b = 0; b < e->n_bands; b++) {
+        scene->sun.irradiance[b] = e->sky ? 0 : 1;
+        scene->sky.zenith[b] = e->sky ? 1 : 0;
+        scene->sky.horizon[b] = e->sky ? 0.5 : 0;
+        for (int face = 0; face < 2; face++) {
+            scene->prototype[0].optics.reflectance[face][b] = e->albedo[b] / 2;
+            scene->prototype[0].optics.transmittance[face][b] = e->albedo[b] / 2;
+        }
+    }
+    status = pps_scene_index(scene);
+    if (status) {
+        pps_scene_free(scene);
+        *out = NULL;
+    }
+    return status;
+}
+
+pps_status pps_experiment_run(const pps_experiment *e, size_t n,
+                              const pps_contender *contender, pps_score *score) {
+    pps_scene *scene = NULL;
+    pps_cells *cells = NULL;
+    pps_irradiance *truth = NULL;
+    pps_cells_options options = {.across = e->across,
+                                 .samples = e->samples,
+                                 .seed = e->seed,
+                                 .threads = e->threads};
+    pps_trace_options trace = {.rays = e->rays ? e->rays : DEFAULT_RAYS,
+                               .seed = e->seed,
+                               .threads = e->threads};
+    pps_status status = grow_scene(e, &scene);
+    if (!status) {
+        status = pps_cells_create(scene, &options, &cells);
+    }
+    if (!status) {
+        status = pps_cells_set_sun(cells, scene, &options);
+    }
+    if (!status) {
+        status = pps_trace_light(scene, &trace, &truth, NULL);
+    }
+    if (!status) {
+        status = pps_score_models(scene, cells, truth, e->bin, n, contender, score);
+    }
+    pps_irradiance_free(truth);
+    pps_cells_free(cells);
+    pps_scene_free(scene);
+    return status;
+}
