@@ -12,7 +12,7 @@ uniform int map_texels;
 float count_down_to(ivec3 texel, vec2 span, float along, float own) {
     float first = -span.x;
     if (along <= first)
-        return 0;
+        return 0.0;
     float layers = span.y > first ? (along - first) / (span.y - first) * 8 : 8;
     int k = int(min(layers, 7));
     vec4 low = texelFetch(near_counts, texel, 0), high = texelFetch(far_counts, texel, 0);
@@ -31,7 +31,7 @@ float look(int caster, vec3 point, float bias) {
     vec2 texels = vec2(dot(texelFetch(poses, 3 * pose), at),
                        dot(texelFetch(poses, 3 * pose + 1), at));
     if (any(lessThan(texels, vec2(-1))) || any(greaterThan(texels, vec2(map_texels))))
-        return 0;
+        return 0.0;
     vec4 axis = texelFetch(poses, 3 * pose + 2);
     float along = dot(axis.xyz, at.xyz), slack = bias * axis.w, sum = 0;
     vec2 low = floor(texels), part = texels - low;
