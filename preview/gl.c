@@ -11,46 +11,7 @@
 static const struct {
     const char *name, *text;
 } shaders[] = {
-    {
-        "backdrop_frag",
-#include "backdrop_frag_glsl.inc"
-    },
-    {
-        "backdrop_vert",
-#include "backdrop_vert_glsl.inc"
-    },
-    {
-        "map_count_frag",
-#include "map_count_frag_glsl.inc"
-    },
-    {
-        "map_span_frag",
-#include "map_span_frag_glsl.inc"
-    },
-    {
-        "map_vert",
-#include "map_vert_glsl.inc"
-    },
-    {
-        "open_frag",
-#include "open_frag_glsl.inc"
-    },
-    {
-        "plant_frag",
-#include "plant_frag_glsl.inc"
-    },
-    {
-        "plant_vert",
-#include "plant_vert_glsl.inc"
-    },
-    {
-        "sun",
-#include "sun_glsl.inc"
-    },
-    {
-        "tone_frag",
-#include "tone_frag_glsl.inc"
-    },
+#include "shaders.inc" /* made by CMake: every file of shaders/ */
 };
 
 static const char *shader_text(const char *name) {

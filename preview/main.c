@@ -5,6 +5,7 @@
 
 #include "preview/bench.h"
 #include "preview/snapshot.h"
+#include "preview/window.h"
 
 /* One line, whatever the user's text holds. */
 static void complain(const char *text) {
@@ -23,8 +24,7 @@ static int run(const preview_options *options, pps_problem *problem) {
     if (options->snapshot) {
         return snapshot_run(options, problem);
     }
-    snprintf(problem->text, sizeof problem->text, "no window yet; use --snapshot");
-    return EXIT_FAILED;
+    return window_run(options, problem);
 }
 
 int main(int argc, char **argv) {
