@@ -237,7 +237,8 @@ static bool read_number(int id, const char *text, preview_options *o,
                    "all, sun, indirect, sky, sky-indirect, with commas between them");
     case SAMPLES:
         o->samples = (int)(read_whole(text, 1, 8, &n) ? n : 0);
-        return n || refuse(problem, "samples", text, "whole numbers from 1 to 8");
+        return o->samples ||
+               refuse(problem, "samples", text, "whole numbers from 1 to 8");
     case RAYS:
         if (!read_whole(text, 1, 1000000000000, &n)) {
             return refuse(problem, "rays", text, "whole numbers from 1 to 1e12");

@@ -272,6 +272,7 @@ static void draw_backdrop(const stage *s, const pps_camera *camera, const view *
     set_bands(scene, program, "horizon", scene->sky.horizon, true);
     set_bands(scene, program, "below", scene->sky.below, true);
     set_bands(scene, program, "ground_reflectance", scene->ground.reflectance, true);
+    gl_set_float(program, "sky_on", s->options.sources & PPS_SKY ? 1 : 0);
     gl_set_int(program, "ground_present", scene->ground.present);
     gl_set_float(program, "ground_height", scene->ground.height);
     gl_set_int(program, "ground_list", (int)scene->n_instances);

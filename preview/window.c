@@ -207,7 +207,9 @@ static bool draw(view_window *w, pps_problem *problem) {
         w->frame_seconds = glfwGetTime() - start;
     }
     show(w, f, width, height);
-    write_panels(w, width, height, (int)fmax(2 * (double)scale, 1));
+    double letters =
+        width < 900 * (double)scale ? 1 : 2; /* small windows, small letters */
+    write_panels(w, width, height, (int)fmax(letters * (double)scale, 1));
     glfwSwapBuffers(w->window);
     w->dirty = coarse; /* the fine one follows */
     return gl_check("drawing", problem);
@@ -301,6 +303,7 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int mods) 
         return;
     }
     w->dirty = true;
+    w->note[0] = '\0';
     switch (key) {
     case GLFW_KEY_LEFT:
         move_sun(w, 5, 0);

@@ -6,7 +6,7 @@ build_packages=(cmake ninja-build gcc libc6-dev pkg-config
     liblapacke-dev libopenblas-dev libgsl-dev librandom123-dev
     libjansson-dev libpng-dev libcmocka-dev
     libassimp-dev libembree-dev libturbojpeg0-dev
-    libegl-dev libgl1-mesa-dri libepoxy-dev libglfw3-dev xvfb)
+    libegl-dev libgl1-mesa-dri libepoxy-dev libglfw3-dev xvfb xauth xdotool)
 
 say() { printf '== %s\n' "$*"; }
 

@@ -10,6 +10,7 @@ uniform bool ground_present;
 uniform float ground_height;
 uniform vec3 ground_reflectance, to_sun, sun;
 uniform int ground_list;
+uniform float sky_on;       // 1, or 0 where the light of the sky is switched off
 uniform sampler2D openness; // share of the sky's light that the ground gets
 uniform vec4 open_frame;    // its low corner and one over its extent
 
@@ -25,7 +26,7 @@ void main() {
     if (!ground_present || drop * way.z <= 0)
         return;
     vec3 point = eye + drop / way.z * way;
-    vec3 light = PI * (horizon + 2 * zenith) / 3 *
+    vec3 light = sky_on * PI * (horizon + 2 * zenith) / 3 *
                  texture(openness, (point.xy - open_frame.xy) * open_frame.zw).x;
     if (to_sun.z > 0 && sun != vec3(0))
         light += to_sun.z * sun * sun_share(ground_list, point, 0);
