@@ -83,6 +83,12 @@ void pps_caster_own(const pps_scene *scene, const pps_caster *caster,
     own[2] = off[2] / instance->scale;
 }
 
+void pps_caster_own_direction(const pps_scene *scene, const pps_caster *caster,
+                              const double direction[3], double own[3]) {
+    pps_instance back = {.yaw = -scene->instance[caster->instance].yaw, .scale = 1};
+    pps_instance_direction(&back, direction, own);
+}
+
 /* ---- who shades whom ---- */
 
 static bool may_shade(const pps_caster *by, const pps_caster *of, const double to[3],

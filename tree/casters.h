@@ -37,4 +37,8 @@ void pps_shade_free(pps_shade *shade);
 void pps_caster_own(const pps_scene *scene, const pps_caster *caster,
                     const double point[3], double own[3]);
 
+/* The same for a direction. */
+void pps_caster_own_direction(const pps_scene *scene, const pps_caster *caster,
+                              const double direction[3], double own[3]);
+
 #endif

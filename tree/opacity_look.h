@@ -12,10 +12,10 @@ typedef struct {
     double depth, behind, visible, clear;
 } pps_opacity_look;
 
-/* bias > 0: the point lies on a surface of the map's own, which is within `bias` metres of
- * its place in the texels about, and does not count. 0: it lies between surfaces. False,
- * with {0, 0, 1, 1}, off the map. */
-bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3], double bias,
-                         pps_opacity_look *look);
+/* `normal`: the point lies on a surface of the map's own, of this unit normal, which does
+ * not count; it is taken to go on as a plane through the texels about. NULL: the point
+ * lies between surfaces. False, with {0, 0, 1, 1}, off the map. */
+bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3],
+                         const double *normal, pps_opacity_look *look);
 
 #endif

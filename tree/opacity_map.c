@@ -21,6 +21,9 @@
 
 enum { LAYERS = PPS_OPACITY_LAYERS, DEFAULT_TEXELS = 128, STEPS = 256 };
 
+/* A surface is no plane: within this many texels, more when steep, it is itself. */
+static const double BIAS = 0.25, STEEPEST = 6;
+
 /* A corner on the map, from the middle of texel (0, 0): across in texels, the same in
  * whole steps of 1/256 texel, and along the light in metres. */
 typedef struct {
@@ -310,10 +313,15 @@ static double count_down_to(const pps_opacity_map *map, size_t texel, double alo
     return before + fmin(layers - k, 1) * here;
 }
 
-/* The four texels about a point and their shares; texels off the map have the share 0.
- * Returns the point's length along the light. */
+/* The four texels about a point, their shares (0 off the map), and how far their middles
+ * are from the point, in texels. Returns the point's length along the light. */
+typedef struct {
+    size_t texel;
+    double share, off[2];
+} near_texel;
+
 static double four_texels(const pps_opacity_map *map, const double point[3],
-                          size_t texel[4], double share[4]) {
+                          near_texel near[4]) {
     double low[2], part[2];
     for (int i = 0; i < 2; i++) {
         double at = (vec_dot(point, map->axis[i]) - map->low[i]) / map->size[i] - 0.5;
@@ -321,33 +329,54 @@ static double four_texels(const pps_opacity_map *map, const double point[3],
         part[i] = at - low[i];
     }
     for (int k = 0; k < 4; k++) {
-        double x = low[0] + k % 2, y = low[1] + k / 2;
+        int right = k % 2, up = k / 2;
+        double x = low[0] + right, y = low[1] + up;
         bool on = x >= 0 && x < map->texels && y >= 0 && y < map->texels;
-        texel[k] = on ? (size_t)y * (size_t)map->texels + (size_t)x : 0;
-        share[k] =
-            on ? (k % 2 ? part[0] : 1 - part[0]) * (k / 2 ? part[1] : 1 - part[1]) : 0;
+        near[k] = (near_texel){
+            on ? (size_t)y * (size_t)map->texels + (size_t)x : 0,
+            on ? (right ? part[0] : 1 - part[0]) * (up ? part[1] : 1 - part[1]) : 0,
+            {right - part[0], up - part[1]}};
     }
     return vec_dot(point, map->axis[2]);
 }
 
-bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3], double bias,
-                         pps_opacity_look *look) {
-    size_t texel[4];
-    double share[4], along = four_texels(map, point, texel, share);
+/* How fast a plane goes along the light, a texel each way; `bias` in metres. */
+static void slope_of(const pps_opacity_map *map, const double *normal, double slope[2],
+                     double *bias) {
+    double along = vec_dot(normal, map->axis[2]), steep[2];
+    for (int i = 0; i < 2; i++) {
+        double s = -vec_dot(normal, map->axis[i]) / (fabs(along) > 1e-9 ? along : 1e-9);
+        steep[i] = fmin(fmax(s, -STEEPEST), STEEPEST);
+        slope[i] = steep[i] * map->size[i];
+    }
+    *bias =
+        BIAS * fmax(map->size[0], map->size[1]) * (1 + fabs(steep[0]) + fabs(steep[1]));
+}
+
+bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3],
+                         const double *normal, pps_opacity_look *look) {
+    near_texel near[4];
+    double middle = four_texels(map, point, near), slope[2] = {0, 0}, bias = 0;
     bool on = false;
     *look = (pps_opacity_look){0, 0, 1, 1};
+    if (normal) {
+        slope_of(map, normal, slope, &bias);
+    }
     for (int k = 0; k < 4; k++) {
-        if (share[k] > 0) {
-            size_t t = texel[k];
+        size_t t = near[k].texel;
+        double share = near[k].share;
+        if (share > 0) {
             double first = (double)map->first[t], last = (double)map->last[t];
-            double own = bias > 0 && along > first - bias && along < last + bias;
+            double along =
+                middle + slope[0] * near[k].off[0] + slope[1] * near[k].off[1];
+            double own = normal && along > first - bias && along < last + bias;
             double before = count_down_to(map, t, along, own);
             double all = (double)map->count[t * LAYERS + LAYERS - 1];
             on = true;
-            look->depth += share[k] * before;
-            look->behind += share[k] * fmax(all - own - before, 0);
-            look->visible -= along > first + bias ? share[k] : 0;
-            look->clear -= along < last - bias ? share[k] : 0;
+            look->depth += share * before;
+            look->behind += share * fmax(all - own - before, 0);
+            look->visible -= along > first + bias ? share : 0;
+            look->clear -= along < last - bias ? share : 0;
         }
     }
     return on;
@@ -355,13 +384,15 @@ bool pps_opacity_look_at(const pps_opacity_map *map, const double point[3], doub
 
 double pps_opacity_depth(const pps_opacity_map *map, const double point[3]) {
     pps_opacity_look look;
-    pps_opacity_look_at(map, point, 0, &look);
+    pps_opacity_look_at(map, point, NULL, &look);
     return look.depth;
 }
 
 double pps_opacity_visibility(const pps_opacity_map *map, const double point[3],
                               double bias) {
+    double nearer[3];
     pps_opacity_look look;
-    pps_opacity_look_at(map, point, bias, &look);
+    vec_along(point, -bias, map->axis[2], nearer);
+    pps_opacity_look_at(map, nearer, NULL, &look);
     return look.visible;
 }

@@ -16,10 +16,6 @@ enum { STEP_CELLS, STEP_MAPS, STEP_G, STEP_SKY, STEP_SUN, STEP_SHADE };
 enum { DEFAULT_SUN_TEXELS = 256, MOST_ACROSS = 256 };
 
 static const double PI = 3.14159265358979323846;
-/* A texel has one depth and a leaf in it many: within this many texels, and as many more
- * as the leaf is steep, surfaces may be the leaf itself. */
-static const double BIAS = 1, STEEPEST = 6;
-
 static const pps_system_steps *steps_of(const pps_system_own *own) {
     return own->options.way == PPS_SYSTEM_GRID ? &pps_system_grid
                                                : &pps_system_instances;
@@ -51,62 +47,67 @@ static pps_status find_poses(pps_system *system) {
     return PPS_OK;
 }
 
-static pps_status map_pose(const pps_system_own *own, pps_pose *pose) {
-    const pps_system *system = &own->system;
+static pps_status map_pose(const pps_system *system, const pps_pose *pose,
+                           const double to[3], int texels, pps_opacity_map **map) {
     pps_instance back = {.yaw = -pose->yaw, .scale = 1};
-    pps_opacity_options options = {.texels = own->options.sun_texels
-                                                 ? own->options.sun_texels
-                                                 : DEFAULT_SUN_TEXELS};
-    double to[3];
-    pps_instance_direction(&back, system->scene->sun.to, to);
-    pps_opacity_map_free(pose->map);
-    return pps_opacity_map_create(system->scene->prototype[pose->prototype].mesh, to,
-                                  &options, &pose->map);
+    pps_opacity_options options = {.texels = texels};
+    double own[3];
+    pps_instance_direction(&back, to, own);
+    pps_opacity_map_free(*map);
+    return pps_opacity_map_create(system->scene->prototype[pose->prototype].mesh, own,
+                                  &options, map);
 }
 
-static pps_status map_sun(pps_system_own *own) {
-    pps_system *system = &own->system;
+pps_status pps_system_map_poses(const pps_system_own *own, const double to[3],
+                                int texels, pps_opacity_map **map) {
+    const pps_system *system = &own->system;
     pps_status worst = PPS_OK;
 #pragma omp parallel for num_threads(own->threads) schedule(dynamic)
     for (size_t p = 0; p < system->n_poses; p++) {
-        pps_status status = map_pose(own, &system->pose[p]);
+        pps_status status = map_pose(system, &system->pose[p], to, texels, &map[p]);
         if (status) {
 #pragma omp atomic write
             worst = status;
         }
     }
-    if (!worst) {
-        pps_shade_free(&own->sun_shade);
-        worst =
-            pps_shade_find(&own->casters, system->scene->sun.to, true, &own->sun_shade);
-    }
-    system->shade_first = own->sun_shade.first;
-    system->shade_list = own->sun_shade.list;
     return worst;
 }
 
-/* How far from its place a leaf may be in the texels about, in texels. */
-static double leaf_bias(const double normal[3], const double to[3]) {
-    double cosine = fabs(vec_dot(normal, to));
-    double steep = sqrt(fmax(1 - cosine * cosine, 0)) / fmax(cosine, 1e-9);
-    return BIAS * (1 + fmin(steep, STEEPEST));
+static pps_status map_sun(pps_system_own *own) {
+    pps_system *system = &own->system;
+    const double *to = system->scene->sun.to;
+    int texels = own->options.sun_texels ? own->options.sun_texels : DEFAULT_SUN_TEXELS;
+    pps_status status = pps_system_map_poses(own, to, texels, own->sun_map);
+    for (size_t p = 0; p < system->n_poses; p++) {
+        system->pose[p].map = own->sun_map[p];
+    }
+    if (!status) {
+        pps_shade_free(&own->sun_shade);
+        status = pps_shade_find(&own->casters, to, true, &own->sun_shade);
+    }
+    system->shade_first = own->sun_shade.first;
+    system->shade_list = own->sun_shade.list;
+    return status;
 }
 
-pps_sun_look pps_system_look_at_sun(const pps_system_own *own, size_t i,
-                                    const double point[3], const double *normal) {
+pps_opacity_look pps_system_look(const pps_system_own *own, const pps_lit_way *light,
+                                 size_t i, const double point[3],
+                                 const double *normal) {
     const pps_system *system = &own->system;
-    const pps_shade *shade = &own->sun_shade;
-    double texels = normal ? leaf_bias(normal, system->scene->sun.to) : 0;
-    pps_sun_look sum = {0, 0, 1, 1};
+    const pps_shade *shade = light->shade;
+    pps_opacity_look sum = {0, 0, 1, 1};
     for (size_t k = shade->first[i]; k < shade->first[i + 1]; k++) {
         const pps_caster *caster = &own->casters.caster[shade->list[k]];
-        const pps_opacity_map *map =
-            system->pose[system->pose_of[caster->instance]].map;
-        double at[3], bias = texels * fmax(map->size[0], map->size[1]);
+        const pps_opacity_map *map = light->map[system->pose_of[caster->instance]];
+        /* The casters begin with the instances at their own places. */
+        bool itself = normal && shade->list[k] == i;
+        double at[3], facing[3];
         pps_opacity_look look;
         pps_caster_own(system->scene, caster, point, at);
-        /* The casters begin with the instances at their own places. */
-        if (pps_opacity_look_at(map, at, shade->list[k] == i ? bias : 0, &look)) {
+        if (itself) {
+            pps_caster_own_direction(system->scene, caster, normal, facing);
+        }
+        if (pps_opacity_look_at(map, at, itself ? facing : NULL, &look)) {
             sum.depth += look.depth;
             sum.behind += look.behind;
             sum.visible *= look.visible;
@@ -114,6 +115,13 @@ pps_sun_look pps_system_look_at_sun(const pps_system_own *own, size_t i,
         }
     }
     return sum;
+}
+
+pps_sun_look pps_system_look_at_sun(const pps_system_own *own, size_t i,
+                                    const double point[3], const double *normal) {
+    const double *to = own->system.scene->sun.to;
+    pps_lit_way light = {{to[0], to[1], to[2]}, own->sun_map, &own->sun_shade};
+    return pps_system_look(own, &light, i, point, normal);
 }
 
 /* ---- life ---- */
@@ -135,7 +143,9 @@ pps_status pps_system_create(const pps_scene *scene, const pps_system_options *o
     own->system.scene = scene;
     own->system.directions = pps_directions_22();
     own->system.cell_of = calloc(scene->n_leaves, sizeof *own->system.cell_of);
-    pps_status status = own->system.cell_of ? find_poses(&own->system) : PPS_ERR_MEMORY;
+    own->sun_map = calloc(scene->n_instances + 1, sizeof(pps_opacity_map *));
+    pps_status status =
+        own->system.cell_of && own->sun_map ? find_poses(&own->system) : PPS_ERR_MEMORY;
     if (!status) {
         status = pps_casters_create(scene, &own->casters);
         own->system.n_casters = own->casters.n;
@@ -157,9 +167,10 @@ void pps_system_free(pps_system *system) {
     }
     pps_system_own *own = (pps_system_own *)system;
     steps_of(own)->free(own);
-    for (size_t p = 0; p < system->n_poses; p++) {
-        pps_opacity_map_free(system->pose[p].map);
+    for (size_t p = 0; own->sun_map && p < system->n_poses; p++) {
+        pps_opacity_map_free(own->sun_map[p]);
     }
+    free(own->sun_map);
     free(system->pose);
     free(system->pose_of);
     free(system->cell_of);

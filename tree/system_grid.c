@@ -1,6 +1,8 @@
 /* The rendering system over one grid of the scene: any light model that has cells.
  *
- * Steps 1 to 3 are one, pps_cells_create, which finds depths by rays: step 1 has its time.
+ * Depths and visibilities of cells are means over leaves, by the same opacity maps as the
+ * sun's: eleven directions and their opposites one after another, of all poses. Rays, as
+ * pps_cells_create has them, are slower and a little better.
  * Sky and sun are two fields, for light adds up: what one of them does not move is kept.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -8,11 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tree/cells_bare.h"
 #include "tree/light_model.h"
 #include "tree/system_own.h"
 #include "tree/vec.h"
 
-enum { MOST_LOOKS = 32 }; /* leaves of a cell that look at the sun */
+enum { SUN_LOOKS = 32, SKY_LOOKS = 16 }; /* leaves of a cell that look there, at most */
+enum { DEFAULT_TEXELS = 256 };
 
 typedef struct {
     const pps_light_model *model;
@@ -87,7 +91,9 @@ static pps_status construct_cells(pps_system_own *own) {
                                      own->options.samples ? own->options.samples : 1,
                                  .threads = own->threads};
     forget(g);
-    pps_status status = pps_cells_create(system->scene, &options, &g->cells);
+    pps_status status = own->options.by_rays
+                            ? pps_cells_create(system->scene, &options, &g->cells)
+                            : pps_cells_create_bare(system->scene, &options, &g->cells);
     if (!status) {
         status = sort_leaves(own);
     }
@@ -96,6 +102,129 @@ static pps_status construct_cells(pps_system_own *own) {
         memcpy(system->cell_of, g->cells->cell_of,
                system->scene->n_leaves * sizeof *system->cell_of);
     }
+    return status;
+}
+
+/* ---- steps 2 and 3 ---- */
+
+/* The mean over at most `most` leaves of a cell, by area; their places are their middles.
+ * False where no leaf counts in the cell. */
+static bool look_from_cell(const pps_system_own *own, const pps_lit_way *light,
+                           size_t c, size_t most, pps_opacity_look *mean) {
+    const grid *g = own->way;
+    size_t n = g->first[c + 1] - g->first[c], step = n / most + 1;
+    double whole = 0;
+    *mean = (pps_opacity_look){0, 0, 0, 0};
+    for (size_t k = g->first[c]; k < g->first[c + 1]; k += step) {
+        pps_scene_leaf leaf;
+        pps_scene_leaf_at(own->system.scene, g->leaf[k], &leaf);
+        pps_opacity_look look =
+            pps_system_look(own, light, leaf.instance, leaf.center, leaf.normal);
+        whole += leaf.area;
+        mean->depth += leaf.area * look.depth;
+        mean->behind += leaf.area * look.behind;
+        mean->visible += leaf.area * look.visible;
+        mean->clear += leaf.area * look.clear;
+    }
+    mean->depth /= whole > 0 ? whole : 1;
+    mean->behind /= whole > 0 ? whole : 1;
+    mean->visible /= whole > 0 ? whole : 1;
+    mean->clear /= whole > 0 ? whole : 1;
+    return whole > 0;
+}
+
+/* A cell that only has parts of leaves that count elsewhere: the mean of its neighbours
+ * where leaves count. */
+static pps_opacity_look borrow(const grid *g, const pps_opacity_look *of, size_t c) {
+    const pps_cells *cells = g->cells;
+    size_t stride[3] = {1, (size_t)cells->n[0],
+                        (size_t)cells->n[0] * (size_t)cells->n[1]};
+    pps_opacity_look sum = {0, 0, 0, 0};
+    double n = 0;
+    for (int k = 0; k < 6; k++) {
+        int axis = k / 2;
+        size_t at = c / stride[axis] % (size_t)cells->n[axis];
+        bool inside = k % 2 ? at + 1 < (size_t)cells->n[axis] : at > 0;
+        size_t other = k % 2 ? c + stride[axis] : c - stride[axis];
+        if (inside && g->first[other + 1] > g->first[other]) {
+            sum.depth += of[other].depth;
+            sum.behind += of[other].behind;
+            sum.visible += of[other].visible;
+            sum.clear += of[other].clear;
+            n++;
+        }
+    }
+    return n > 0 ? (pps_opacity_look){sum.depth / n, sum.behind / n, sum.visible / n,
+                                      sum.clear / n}
+                 : (pps_opacity_look){0, 0, 1, 1};
+}
+
+/* From every cell with leaves, looks[c]. */
+static void look_from_cells(const pps_system_own *own, const pps_lit_way *light,
+                            size_t most, pps_opacity_look *looks) {
+    const grid *g = own->way;
+    size_t n = g->cells->n_cells;
+#pragma omp parallel for num_threads(own->threads) schedule(dynamic, 16)
+    for (size_t c = 0; c < n; c++) {
+        look_from_cell(own, light, c, most, &looks[c]);
+    }
+    for (size_t c = 0; c < n; c++) {
+        if (g->cells->area[c] > 0 && g->first[c + 1] == g->first[c]) {
+            looks[c] = borrow(g, looks, c);
+        }
+    }
+}
+
+/* A direction and its opposite, which lies behind on the same lines. */
+static void put_directions(pps_cells *cells, size_t j, const pps_opacity_look *looks) {
+    size_t n = (size_t)cells->directions.n;
+    for (size_t c = 0; c < cells->n_cells; c++) {
+        if (cells->area[c] > 0) {
+            cells->depth[c * n + j] = (float)looks[c].depth;
+            cells->depth[c * n + (j ^ 1)] = (float)looks[c].behind;
+            cells->visibility[c * n + j] = (float)looks[c].visible;
+            cells->visibility[c * n + (j ^ 1)] = (float)looks[c].clear;
+        }
+    }
+}
+
+static pps_status look_towards(pps_system_own *own, size_t j, pps_opacity_map **map,
+                               pps_opacity_look *looks) {
+    grid *g = own->way;
+    const double *to = g->cells->directions.to[j];
+    int texels = own->options.texels ? own->options.texels : DEFAULT_TEXELS;
+    pps_shade shade;
+    pps_status status = pps_shade_find(&own->casters, to, true, &shade);
+    if (status) {
+        return status;
+    }
+    status = pps_system_map_poses(own, to, texels, map);
+    if (!status) {
+        pps_lit_way light = {{to[0], to[1], to[2]}, map, &shade};
+        look_from_cells(own, &light, SKY_LOOKS, looks);
+        put_directions(g->cells, j, looks);
+    }
+    pps_shade_free(&shade);
+    return status;
+}
+
+static pps_status map_directions(pps_system_own *own) {
+    grid *g = own->way;
+    size_t n_poses = own->system.n_poses;
+    if (own->options.by_rays) {
+        return PPS_OK;
+    }
+    pps_opacity_map **map = calloc(n_poses + 1, sizeof *map);
+    pps_opacity_look *looks = calloc(g->cells->n_cells + 1, sizeof *looks);
+    pps_status status = map && looks ? PPS_OK : PPS_ERR_MEMORY;
+    for (size_t j = 0; j < (size_t)g->cells->directions.n && !status; j += 2) {
+        status = look_towards(own, j, map, looks);
+    }
+    for (size_t p = 0; map && p < n_poses; p++) {
+        pps_opacity_map_free(map[p]);
+    }
+    free(map);
+    free(looks);
     return status;
 }
 
@@ -129,67 +258,25 @@ static pps_status light_sky(pps_system_own *own) {
     return status;
 }
 
-/* Means over leaves of the cell, by area; the places of leaves are their middles. */
-static void look_from_cell(const pps_system_own *own, size_t c) {
-    const grid *g = own->way;
-    size_t n = g->first[c + 1] - g->first[c], step = n / MOST_LOOKS + 1;
-    double whole = 0;
-    pps_sun_look sum = {0, 0, 0, 0};
-    for (size_t k = g->first[c]; k < g->first[c + 1]; k += step) {
-        pps_scene_leaf leaf;
-        pps_scene_leaf_at(own->system.scene, g->leaf[k], &leaf);
-        pps_sun_look look =
-            pps_system_look_at_sun(own, leaf.instance, leaf.center, leaf.normal);
-        whole += leaf.area;
-        sum.depth += leaf.area * look.depth;
-        sum.behind += leaf.area * look.behind;
-        sum.visible += leaf.area * look.visible;
-        sum.clear += leaf.area * look.clear;
-    }
-    if (whole > 0) {
-        g->cells->sun_depth[c] = sum.depth / whole;
-        g->cells->sun_behind[c] = sum.behind / whole;
-        g->cells->sun_visibility[c] = sum.visible / whole;
-        g->cells->sun_clear[c] = sum.clear / whole;
-    }
-}
-
-/* A cell that only has parts of leaves that count elsewhere: the mean of its neighbours. */
-static void borrow(pps_cells *cells, const size_t *first, size_t c) {
-    size_t stride[3] = {1, (size_t)cells->n[0],
-                        (size_t)cells->n[0] * (size_t)cells->n[1]};
-    double n = 0, sum[4] = {0, 0, 0, 0};
-    for (int k = 0; k < 6; k++) {
-        int axis = k / 2;
-        size_t at = c / stride[axis] % (size_t)cells->n[axis];
-        bool inside = k % 2 ? at + 1 < (size_t)cells->n[axis] : at > 0;
-        size_t other = k % 2 ? c + stride[axis] : c - stride[axis];
-        if (inside && first[other + 1] > first[other]) {
-            sum[0] += cells->sun_depth[other];
-            sum[1] += cells->sun_behind[other];
-            sum[2] += cells->sun_visibility[other];
-            sum[3] += cells->sun_clear[other];
-            n++;
-        }
-    }
-    cells->sun_depth[c] = n > 0 ? sum[0] / n : 0;
-    cells->sun_behind[c] = n > 0 ? sum[1] / n : 0;
-    cells->sun_visibility[c] = n > 0 ? sum[2] / n : 1;
-    cells->sun_clear[c] = n > 0 ? sum[3] / n : 1;
-}
-
 static pps_status light_sun(pps_system_own *own) {
     grid *g = own->way;
     pps_cells *cells = g->cells;
-#pragma omp parallel for num_threads(own->threads) schedule(dynamic, 16)
-    for (size_t c = 0; c < cells->n_cells; c++) {
-        look_from_cell(own, c);
+    const double *to = own->system.scene->sun.to;
+    pps_lit_way light = {{to[0], to[1], to[2]}, own->sun_map, &own->sun_shade};
+    pps_opacity_look *looks = calloc(cells->n_cells + 1, sizeof *looks);
+    if (!looks) {
+        return PPS_ERR_MEMORY;
     }
+    look_from_cells(own, &light, SUN_LOOKS, looks);
     for (size_t c = 0; c < cells->n_cells; c++) {
-        if (cells->area[c] > 0 && g->first[c + 1] == g->first[c]) {
-            borrow(cells, g->first, c);
+        if (cells->area[c] > 0) {
+            cells->sun_depth[c] = looks[c].depth;
+            cells->sun_behind[c] = looks[c].behind;
+            cells->sun_visibility[c] = looks[c].visible;
+            cells->sun_clear[c] = looks[c].clear;
         }
     }
+    free(looks);
     pps_status status = solve(own, SYSTEM_SUN, PPS_SUN | PPS_SUN_INDIRECT);
     if (!status) {
         own->system.sun = g->field[SYSTEM_SUN]->sun;
@@ -197,5 +284,5 @@ static pps_status light_sun(pps_system_own *own) {
     return status;
 }
 
-const pps_system_steps pps_system_grid = {create,  free_way,  construct_cells, nothing,
-                                          nothing, light_sky, light_sun};
+const pps_system_steps pps_system_grid = {
+    create, free_way, construct_cells, map_directions, nothing, light_sky, light_sun};

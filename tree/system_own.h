@@ -22,8 +22,9 @@ typedef struct pps_system_own {
     pps_shade sun_shade;
     bool done[PPS_SYSTEM_STEPS];
     int threads;
-    bool counts; /* light is e^-depth */
-    void *way;   /* the state of the way taken */
+    pps_opacity_map **sun_map; /* [pose] */
+    bool counts;               /* light is e^-depth */
+    void *way;                 /* the state of the way taken */
 } pps_system_own;
 
 /* A way: its steps, by number - 1. Steps 1 and 2 find pub.n_cells, cell_of and what they
@@ -40,9 +41,25 @@ typedef struct pps_system_steps {
 
 extern const pps_system_steps pps_system_grid, pps_system_instances;
 
-/* How the sun comes to a point of instance i: on a leaf of this normal, or (NULL) between
- * leaves. */
+/* Maps of all poses towards a light, map[pose], and who may stand in it. */
+typedef struct {
+    double to[3];
+    pps_opacity_map *const *map;
+    const pps_shade *shade;
+} pps_lit_way;
+
+/* How that light comes to a point of instance i: on a leaf of this normal, or (NULL)
+ * between leaves. */
+pps_opacity_look pps_system_look(const pps_system_own *own, const pps_lit_way *light,
+                                 size_t i, const double point[3], const double *normal);
+
+/* The same for the sun. */
 pps_sun_look pps_system_look_at_sun(const pps_system_own *own, size_t i,
                                     const double point[3], const double *normal);
+
+/* Make the maps of all poses towards a direction, [pose], each in the place of an older
+ * one or of NULL. */
+pps_status pps_system_map_poses(const pps_system_own *own, const double to[3],
+                                int texels, pps_opacity_map **map);
 
 #endif

@@ -29,7 +29,7 @@ void main() {
     vec3 light = sky_on * PI * (horizon + 2 * zenith) / 3 *
                  texture(openness, (point.xy - open_frame.xy) * open_frame.zw).x;
     if (to_sun.z > 0 && sun != vec3(0))
-        light += to_sun.z * sun * sun_share(ground_list, point, 0);
+        light += to_sun.z * sun * sun_share(ground_list, point, vec3(0));
     radiance = vec4(light * ground_reflectance / PI, 1);
     vec4 clip = to_clip * vec4(point, 1);
     gl_FragDepth = clamp(clip.z / clip.w * 0.5 + 0.5, 0, 0.9999999);

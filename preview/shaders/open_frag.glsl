@@ -12,5 +12,5 @@ out vec4 open;
 
 void main() {
     vec3 point = vec3(low + (screen * 0.5 + 0.5) * extent, ground_height);
-    open = vec4(weight * sun_share(ground_list, point, 0));
+    open = vec4(weight * sun_share(ground_list, point, vec3(0)));
 }

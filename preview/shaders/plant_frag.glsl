@@ -63,9 +63,8 @@ void leaf_irradiance(vec3 n, out vec3 front, out vec3 back) {
     back = max(even - odd, 0);
     sky_light(cell, n, front, back);
     float cosine = dot(n, to_sun);
-    float steep = sqrt(max(1 - cosine * cosine, 0)) / max(abs(cosine), 1e-6);
     if (sun != vec3(0)) {
-        float share = cosine * sun_share(instance, point, 1 + min(steep, 6));
+        float share = cosine * sun_share(instance, point, n);
         front += max(share, 0) * sun;
         back += max(-share, 0) * sun;
     }
@@ -82,7 +81,7 @@ void main() {
         vec3 light = around;
         float cosine = dot(n, to_sun);
         if (cosine > 0 && sun != vec3(0))
-            light += cosine * sun * sun_share(instance, point, 3);
+            light += cosine * sun * sun_share(instance, point, n);
         radiance = vec4(false_color > 0 ? vec3(0.03) : light * color * texel.rgb / PI, 1);
         return;
     }
@@ -93,7 +92,7 @@ void main() {
                  transmittance[1 - face] * (in_front ? back : front);
     radiance = vec4(light / PI * texel.rgb / image_mean, 1);
     if (false_color == 1)
-        radiance.rgb = rainbow(sun_share(instance, point, 3));
+        radiance.rgb = rainbow(sun_share(instance, point, n));
     if (false_color == 2)
         radiance.rgb = rainbow(dot(front + back, vec3(1.0 / 3)) / false_top);
 }

@@ -21,9 +21,9 @@ float count_down_to(ivec3 texel, vec2 span, float along, float own) {
     return before + min(layers - float(k), 1) * max(count - before - own, 0);
 }
 
-// Counts, or the share of texels that are hidden, of one caster. bias: see
-// tree/opacity_look.h, in texels.
-float look(int caster, vec3 point, float bias) {
+// Counts, or the share of texels that are hidden, of one caster. normal: of the surface of
+// its own that the point is on, which goes on as a plane; 0: of none. tree/opacity_map.c.
+float look(int caster, vec3 point, vec3 normal) {
     vec4 place = texelFetch(casters, 2 * caster), turn = texelFetch(casters, 2 * caster + 1);
     vec3 off = (point - place.xyz) * place.w;
     vec4 at = vec4(turn.x * off.x + turn.y * off.y, turn.x * off.y - turn.y * off.x, off.z, 1);
@@ -33,15 +33,29 @@ float look(int caster, vec3 point, float bias) {
     if (any(lessThan(texels, vec2(-1))) || any(greaterThan(texels, vec2(map_texels))))
         return 0.0;
     vec4 axis = texelFetch(poses, 3 * pose + 2);
-    float along = dot(axis.xyz, at.xyz), slack = bias * axis.w, sum = 0;
+    float middle = dot(axis.xyz, at.xyz), slack = 0, sum = 0;
+    vec2 slope = vec2(0);
+    bool itself = normal != vec3(0);
+    if (itself) {
+        vec3 n = vec3(turn.x * normal.x + turn.y * normal.y,
+                      turn.x * normal.y - turn.y * normal.x, normal.z);
+        vec3 across = texelFetch(poses, 3 * pose).xyz, up = texelFetch(poses, 3 * pose + 1).xyz;
+        float cosine = dot(n, axis.xyz);
+        cosine = abs(cosine) > 1e-6 ? cosine : 1e-6;
+        vec2 size = 1 / vec2(length(across), length(up));
+        slope = clamp(-vec2(dot(n, across), dot(n, up)) * size / cosine, -6, 6);
+        slack = 0.25 * axis.w * (1 + abs(slope.x) + abs(slope.y));
+        slope *= size;
+    }
     vec2 low = floor(texels), part = texels - low;
     for (int k = 0; k < 4; k++) {
         ivec2 corner = ivec2(k & 1, k >> 1), t = ivec2(low) + corner;
         vec2 share = mix(1 - part, part, vec2(corner));
+        float along = middle + dot(slope, vec2(corner) - part);
         if (all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, ivec2(map_texels)))) {
             vec2 span = texelFetch(spans, ivec3(t, pose), 0).xy;
             if (by_count) {
-                bool own = slack > 0 && along > -span.x - slack && along < span.y + slack;
+                bool own = itself && along > -span.x - slack && along < span.y + slack;
                 sum += share.x * share.y *
                        count_down_to(ivec3(t, pose), span, along, own ? 1 : 0);
             } else if (along > -span.x + slack) {
@@ -53,13 +67,13 @@ float look(int caster, vec3 point, float bias) {
 }
 
 // The share of the sun that comes to a point of an instance (or, list n_instances, of the
-// ground). bias in texels for the instance's own surfaces.
-float sun_share(int list, vec3 point, float bias) {
+// ground), on a surface of this normal of the instance (0: on none).
+float sun_share(int list, vec3 point, vec3 normal) {
     uint first = texelFetch(shade, list).x, end = texelFetch(shade, list + 1).x;
     float light = 1, count = 0;
     for (uint k = first; k < end && (by_count || light > 0.004); k++) {
         int caster = int(texelFetch(shade, int(k)).x);
-        float met = look(caster, point, caster == list ? bias : 0);
+        float met = look(caster, point, caster == list ? normal : vec3(0));
         light *= 1 - met;
         count += met;
     }

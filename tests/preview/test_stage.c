@@ -52,7 +52,7 @@ static preview_options options_for(const char *model, unsigned sources) {
                          .height = HEIGHT,
                          .samples = 1,
                          .view = {-50, 15},
-                         .stage = {.sources = sources, .map_texels = 256}};
+                         .stage = {.sources = sources, .map_texels = 512}};
     assert_true(options_model(model, &o.stage));
     o.stage.compensate = o.stage.way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;
     return o;

@@ -41,9 +41,12 @@ typedef struct pps_system_options {
     bool kappa_printed;      /* INSTANCES: Eq. 20 as printed */
     int across; /* cells across the longest side of a plant's leaves; 0: 16 for GRID,
                        10 for INSTANCES */
-    int texels; /* of the maps towards the directions; 0: 64 */
+    int texels; /* of the maps towards the directions; 0: 64 for INSTANCES,
+ 256 for GRID */
     int sun_texels; /* of the sun's maps; 0: 256 */
-    int samples;    /* GRID: points a leaf that depths are averaged over; 0: 1 */
+    int samples;    /* GRID: points a leaf that find its cells; 0: 1 */
+    bool by_rays; /* GRID: depths towards the directions by rays from the samples: slow,
+ and better by a hundredth */
     int threads;
 } pps_system_options;
 
