@@ -32,11 +32,12 @@ picture() {
 }
 
 for _ in {1..300}; do
-    window=$(xdotool search --name ppscat-preview 2>/dev/null | head -1) || true
+    window=$(xdotool search --onlyvisible --name ppscat-preview 2>/dev/null | head -1) || true
     [[ $window ]] && break
     sleep 0.1
 done
 [[ $window ]] || fail "no window: $(cat errors)"
+sleep 0.5
 xdotool windowfocus --sync "$window"
 picture
 picture Left Left Left            # the sun moves
