@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ppscat)
 
-install(TARGETS ppscat EXPORT ppscatTargets)
+set_target_properties(ppscat_tree PROPERTIES EXPORT_NAME tree)
+install(TARGETS ppscat ppscat_tree EXPORT ppscatTargets)
 install(DIRECTORY include/ppscat TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY data/scenes data/trees DESTINATION ${CMAKE_INSTALL_DATADIR}/ppscat)
 install(EXPORT ppscatTargets NAMESPACE ppscat:: DESTINATION ${package_dir})
@@ -22,7 +23,8 @@ install(FILES
 file(RELATIVE_PATH pc_to_prefix
     ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/ppscat.pc.in ppscat.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/ppscat.pc
+configure_file(cmake/ppscat-tree.pc.in ppscat-tree.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/ppscat.pc ${PROJECT_BINARY_DIR}/ppscat-tree.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff TYPE DOC)
