@@ -27,15 +27,7 @@ bool stage_cells_known(const stage *s) {
     return s->options.way == STAGE_GRID || s->options.way == STAGE_INSTANCES;
 }
 
-bool stage_counts(const stage *s) {
-    static const char *const by_count[] = {"ss", "spp", "spp-printed", "hemispheric"};
-    bool counts = s->options.way == STAGE_INSTANCES;
-    for (size_t i = 0; i < sizeof by_count / sizeof *by_count; i++) {
-        counts = counts || (s->options.way == STAGE_GRID &&
-                            strcmp(s->options.model->name, by_count[i]) == 0);
-    }
-    return counts;
-}
+bool stage_counts(const stage *s) { return s->system && s->system->by_count; }
 
 static bool fail(pps_status status, const char *what, pps_problem *problem) {
     if (status) {
@@ -192,15 +184,14 @@ static bool open_all(stage *s, pps_problem *problem) {
     }
     glGenVertexArrays(1, &s->empty);
     s->white = plain_texture();
-    bool counts = stage_counts(s);
     if (fail(load_meshes(s), "the plants' meshes", problem) || !prepare(s, problem) ||
         fail(stage_fill_static(s), "the cells' tables", problem)) {
         return false;
     }
     size_t n_poses = s->scene->n_instances; /* at most */
     n_poses = s->system ? s->system->n_poses : n_poses;
-    return gpu_maps_create(s->options.map_texels, (int)n_poses, counts, &s->sun.maps,
-                           problem) &&
+    return gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
+                           &s->sun.maps, problem) &&
            stage_light_sky(s, problem) && stage_open_ground(s, problem);
 }
 

@@ -152,6 +152,7 @@ pps_status pps_system_create(const pps_scene *scene, const pps_system_options *o
     }
     if (!status) {
         status = steps_of(own)->create(own);
+        own->system.by_count = own->counts;
     }
     if (status) {
         pps_system_free(&own->system);

@@ -63,6 +63,8 @@ typedef struct pps_system {
     const pps_scene *scene;
     pps_directions directions;
     double seconds[PPS_SYSTEM_STEPS]; /* of each step's last run */
+    bool
+        by_count; /* the sun comes to leaves as e^-count; else leaves are opaque to it */
     size_t n_cells;
     uint32_t *cell_of;        /* [scene leaf] */
     size_t n_poses, *pose_of; /* [instance] */
