@@ -33,7 +33,7 @@ typedef struct {
     frame fine, coarse;
     GLuint tone, empty;
     panel panel;
-    bool help, dirty, sun_moved, dragging;
+    bool help, dirty, sun_moved, dragging, save;
     double last[2], frame_seconds;
     struct timespec changed; /* of the scene's file */
     char note[600];
@@ -176,6 +176,31 @@ static void draw_frame(view_window *w, const frame *f) {
     glFinish();
 }
 
+/* The fine frame, as it was drawn last. */
+static void save_picture(view_window *w) {
+    w->save = false;
+    pps_problem problem = {""};
+    pps_picture *picture;
+    char path[64];
+    struct stat about;
+    do {
+        snprintf(path, sizeof path, "ppscat-preview-%d.png", ++w->pictures);
+    } while (stat(path, &about) == 0 && w->pictures < 10000);
+    if (pps_picture_create(w->fine.width, w->fine.height, &picture)) {
+        return;
+    }
+    frame_read(&w->fine, picture);
+    double exposure = w->options.show == SHOW_LIGHT
+                          ? w->options.exposure * stage_exposure(w->stage)
+                          : 1;
+    if (pps_picture_write(picture, exposure, path, &problem)) {
+        snprintf(w->note, sizeof w->note, "%s", problem.text);
+    } else {
+        snprintf(w->note, sizeof w->note, "saved %s", path);
+    }
+    pps_picture_free(picture);
+}
+
 static bool draw(view_window *w, pps_problem *problem) {
     int width, height;
     float scale;
@@ -199,12 +224,15 @@ static bool draw(view_window *w, pps_problem *problem) {
             return false;
         }
     }
-    bool coarse = w->dragging && w->frame_seconds > SLOW;
+    bool coarse = w->dragging && w->frame_seconds > SLOW && !w->save;
     const frame *f = coarse ? &w->coarse : &w->fine;
     double start = glfwGetTime();
     draw_frame(w, f);
     if (!coarse) {
         w->frame_seconds = glfwGetTime() - start;
+    }
+    if (w->save) {
+        save_picture(w);
     }
     show(w, f, width, height);
     double letters =
@@ -213,30 +241,6 @@ static bool draw(view_window *w, pps_problem *problem) {
     glfwSwapBuffers(w->window);
     w->dirty = coarse; /* the fine one follows */
     return gl_check("drawing", problem);
-}
-
-static void save_picture(view_window *w) {
-    pps_problem problem = {""};
-    pps_picture *picture;
-    char path[64];
-    struct stat about;
-    do {
-        snprintf(path, sizeof path, "ppscat-preview-%d.png", ++w->pictures);
-    } while (stat(path, &about) == 0 && w->pictures < 10000);
-    if (pps_picture_create(w->fine.width, w->fine.height, &picture)) {
-        return;
-    }
-    draw_frame(w, &w->fine);
-    frame_read(&w->fine, picture);
-    double exposure = w->options.show == SHOW_LIGHT
-                          ? w->options.exposure * stage_exposure(w->stage)
-                          : 1;
-    if (pps_picture_write(picture, exposure, path, &problem)) {
-        snprintf(w->note, sizeof w->note, "%s", problem.text);
-    } else {
-        snprintf(w->note, sizeof w->note, "saved %s", path);
-    }
-    pps_picture_free(picture);
 }
 
 /* ---- keys ---- */
@@ -339,7 +343,7 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int mods) 
         start_view(w);
         break;
     case GLFW_KEY_S:
-        save_picture(w);
+        w->save = true; /* of the next frame, with all that moved until now */
         break;
     case GLFW_KEY_R:
         load(w, true, &problem);
