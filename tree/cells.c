@@ -15,6 +15,7 @@
 
 #include <omp.h>
 
+#include "tree/cells_bare.h"
 #include "tree/leafpoint.h"
 #include "tree/rays.h"
 #include "tree/vec.h"
@@ -295,17 +296,20 @@ static pps_status build(pps_cells_own *own, const pps_cells_options *options) {
     if (!status) {
         status = reserve(own);
     }
-    if (!status) {
-        status = sort_points(own, threads);
-    }
-    if (!status) {
-        measure_directions(own, threads);
-    }
-    return status;
+    return status ? status : sort_points(own, threads);
 }
 
 pps_status pps_cells_create(const pps_scene *scene, const pps_cells_options *options,
                             pps_cells **out) {
+    pps_status status = pps_cells_create_bare(scene, options, out);
+    if (!status) {
+        measure_directions((pps_cells_own *)*out, thread_count(options));
+    }
+    return status;
+}
+
+pps_status pps_cells_create_bare(const pps_scene *scene,
+                                 const pps_cells_options *options, pps_cells **out) {
     *out = NULL;
     if (!scene || !scene->first_leaf || (options && options->samples < 0)) {
         return PPS_ERR_ARGUMENT;

@@ -1,0 +1,79 @@
+/* A scene on the GPU, with the light that the rendering system finds for it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PREVIEW_STAGE_H
+#define PREVIEW_STAGE_H
+
+#include <ppscat/tree/picture.h>
+#include <ppscat/tree/system.h>
+
+#include "preview/gpu_map.h"
+
+/* What lights the leaves. */
+typedef enum {
+    STAGE_GRID,      /* pps_system, over the scene's grid */
+    STAGE_INSTANCES, /* pps_system, the paper's own way */
+    STAGE_LEAVES,    /* a model without cells */
+    STAGE_MONTE_CARLO
+} stage_way;
+
+typedef struct {
+    stage_way way;
+    const pps_light_model *model; /* of GRID and LEAVES */
+    pps_compensation compensate;
+    unsigned sources; /* pps_light_source, added */
+    int map_texels;   /* of the sun's maps that shaders read */
+    uint64_t rays;    /* of MONTE_CARLO; 0: its default */
+    int threads;      /* 0: all cores */
+} stage_options;
+
+typedef enum { SHOW_LIGHT, SHOW_SUN, SHOW_SCATTERED } stage_show;
+
+/* Seconds: [0..4] the system's steps 1 to 5, [5] the sun's maps on the GPU. */
+enum { STAGE_TIMES = 6 };
+
+/* A light's tables and maps: one each for what is drawn by it. */
+typedef struct {
+    gpu_maps maps;
+    gl_table casters, poses, shade;
+} stage_sun;
+
+typedef struct stage {
+    pps_scene *scene;
+    stage_options options;
+    pps_system *system;
+    float *attenuation;     /* of LEAVES */
+    pps_irradiance *leaves; /* of LEAVES and MONTE_CARLO */
+    double seconds[STAGE_TIMES];
+    size_t n_triangles; /* of all instances */
+    pps_box box;
+    double (*ball)[4]; /* about each prototype: middle and radius */
+    gpu_mesh *mesh;    /* of each prototype */
+    GLuint *instances; /* buffers of each prototype's instances, */
+    GLsizei *n_drawn;  /* in view */
+    stage_sun sun;
+    gl_table cell_of, scattered, sky_shares, leaf_light;
+    GLuint openness, empty, white;
+    float open_frame[4], around[3];
+    GLuint plant_program, backdrop_program;
+} stage;
+
+/* Take a scene, which the stage then owns, and do steps 1 to 5. NULL: the problem. */
+stage *stage_open(pps_scene *scene, const stage_options *options, pps_problem *problem);
+void stage_close(stage *s); /* NULL is fine */
+
+/* After the scene's sun moved, its sky changed, or other sources are asked for. */
+bool stage_light_sun(stage *s, pps_problem *problem);
+bool stage_light_sky(stage *s, pps_problem *problem);
+
+/* Draw into the bound frame buffer, whose viewport is width x height: linear radiance. */
+void stage_draw(stage *s, const pps_camera *camera, int width, int height,
+                stage_show show);
+
+/* What makes a white plane under the open sky shine as brightly as can be shown. */
+double stage_exposure(const stage *s);
+
+/* The band that a colour (0 red, 1 green, 2 blue) is taken from; -1: none. */
+int stage_band(const pps_scene *scene, int color);
+
+#endif

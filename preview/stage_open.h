@@ -1,0 +1,15 @@
+/* Scenes for the stage: from a file, or the grove it opens on.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PREVIEW_STAGE_OPEN_H
+#define PREVIEW_STAGE_OPEN_H
+
+#include "preview/options.h"
+
+/* The scene that the options ask for, its sun turned; NULL: the problem. */
+pps_scene *scene_for(const preview_options *options, pps_problem *problem);
+
+/* Turn a scene's sun: degrees from +x towards +y, and above the horizon. */
+void turn_sun(pps_scene *scene, double azimuth, double elevation);
+
+#endif

@@ -1,0 +1,219 @@
+/* Frames of the GPU against pictures by rays of the same light, pixel by pixel.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <ppscat/tree/grow.h>
+
+#include "preview/headless.h"
+#include "preview/snapshot.h"
+#include "support/support.h"
+
+enum { WIDTH = 240, HEIGHT = 200 };
+
+static headless *context;
+
+static int open_context(void **state) {
+    (void)state;
+    pps_problem problem = {""};
+    context = headless_open(&problem);
+    if (!context) {
+        print_message("%s\n", problem.text);
+    }
+    return context ? 0 : -1;
+}
+
+static int close_context(void **state) {
+    (void)state;
+    headless_close(context);
+    return 0;
+}
+
+/* Three crowns of flat leaves, turned and scaled, over a ground. */
+static pps_scene *three_crowns(void) {
+    pps_crown crown = {PPS_CROWN_CLUMPED, 2.5, 3000, 4};
+    pps_mesh *mesh;
+    pps_scene *scene;
+    assert_int_equal(pps_crown_grow(&crown, &mesh), PPS_OK);
+    assert_int_equal(pps_scene_of_mesh(mesh, &scene), PPS_OK);
+    scene->instance = realloc(scene->instance, 3 * sizeof *scene->instance);
+    scene->n_instances = 3;
+    scene->instance[1] = (pps_instance){0, {2, 0.3, 0}, 72, 0.8};
+    scene->instance[2] = (pps_instance){0, {0.3, 2.1, 0.3}, 216, 1.2};
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
+    return scene;
+}
+
+static preview_options options_for(const char *model, unsigned sources) {
+    preview_options o = {.width = WIDTH,
+                         .height = HEIGHT,
+                         .samples = 1,
+                         .view = {-50, 15},
+                         .stage = {.sources = sources, .map_texels = 512}};
+    assert_true(options_model(model, &o.stage));
+    o.stage.compensate = o.stage.way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;
+    return o;
+}
+
+static pps_picture *by_rays(const stage *s, const pps_irradiance *light,
+                            const preview_options *o) {
+    pps_camera camera;
+    pps_picture *picture;
+    assert_int_equal(pps_picture_create(WIDTH, HEIGHT, &picture), PPS_OK);
+    pps_camera_fit(s->scene, o->view[0], o->view[1], (double)WIDTH / HEIGHT, &camera);
+    assert_int_equal(pps_render(s->scene, light, &camera, 1, picture), PPS_OK);
+    return picture;
+}
+
+/* Over the pixels of leaves: the ratio of the means, and the share of pixels within one
+ * hundredth of the brightest leaves' light. */
+typedef struct {
+    size_t n;
+    double ratio, equal;
+} likeness;
+
+static likeness compare(stage *s, const pps_irradiance *light,
+                        const preview_options *o) {
+    pps_problem problem = {""};
+    pps_irradiance *none;
+    likeness like = {0};
+    double sum[2] = {0, 0}, top = 0;
+    assert_int_equal(pps_irradiance_create(s->scene, false, &none), PPS_OK);
+    pps_picture *gpu = snapshot_draw(s, o, &problem), *rays = by_rays(s, light, o),
+                *dark = by_rays(s, none, o); /* leaves alone are black */
+    assert_non_null(gpu);
+    for (size_t i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+        top = dark->rgb[i] > 0 ? top : fmax(top, (double)rays->rgb[i]);
+    }
+    for (size_t i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+        if (!(dark->rgb[i] > 0)) {
+            double a = (double)gpu->rgb[i], b = (double)rays->rgb[i];
+            sum[0] += a;
+            sum[1] += b;
+            like.equal += fabs(a - b) < 0.01 * top;
+            like.n++;
+        }
+    }
+    like.ratio = sum[0] / sum[1];
+    like.equal /= (double)like.n;
+    pps_irradiance_free(none);
+    pps_picture_free(gpu);
+    pps_picture_free(rays);
+    pps_picture_free(dark);
+    return like;
+}
+
+static void frames_are_pictures_by_rays(void **state) {
+    (void)state;
+    static const struct {
+        const char *model;
+        unsigned sources;
+        double equal; /* the sun comes to pixels here, to middles of leaves there */
+    } row[] = {{"lattice", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
+               {"lattice", PPS_ALL_LIGHT, 0.5},
+               {"spp", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
+               {"spp", PPS_ALL_LIGHT, 0.4},
+               {"sppg", PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
+               {"sppg", PPS_ALL_LIGHT, 0.4},
+               {"leaf", PPS_SUN | PPS_SKY, 0.99},
+               {"mc", PPS_ALL_LIGHT, 0.99}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        pps_problem problem = {""};
+        preview_options o = options_for(row[i].model, row[i].sources);
+        o.stage.rays = 200000;
+        stage *s = stage_open(three_crowns(), &o.stage, &problem);
+        if (!s) {
+            fail_msg("%s", problem.text);
+        }
+        pps_irradiance *shaded = NULL;
+        if (s->system) {
+            assert_int_equal(pps_system_shade(s->system, row[i].sources, &shaded),
+                             PPS_OK);
+        }
+        likeness like = compare(s, shaded ? shaded : s->leaves, &o);
+        print_message(
+            "%s, sources %u: mean %.4f of that by rays, %.2f %% of %zu values "
+            "equal\n",
+            row[i].model, row[i].sources, like.ratio, 100 * like.equal, like.n);
+        assert_true(like.n > 10000);
+        assert_close(like.ratio, 1, 0.02, 0);
+        assert_true(like.equal >= row[i].equal);
+        pps_irradiance_free(shaded);
+        stage_close(s);
+    }
+}
+
+/* The sky is the sky's radiance; the sun's shadow lies where rays find it. */
+static void sky_and_shadow_are_where_rays_find_them(void **state) {
+    (void)state;
+    pps_problem problem = {""};
+    preview_options o = options_for("lattice", PPS_ALL_LIGHT);
+    pps_scene *scene = three_crowns();
+    memset(&scene->sky, 0, sizeof scene->sky);
+    scene->ground.reflectance[0] = scene->ground.reflectance[1] =
+        scene->ground.reflectance[2] = 0.5;
+    stage *s = stage_open(scene, &o.stage, &problem);
+    assert_non_null(s);
+    pps_irradiance *none;
+    assert_int_equal(pps_irradiance_create(s->scene, false, &none), PPS_OK);
+    pps_picture *gpu = snapshot_draw(s, &o, &problem), *rays = by_rays(s, none, &o);
+    double lit =
+        0.5 / 3.14159265358979323846 * scene->sun.to[2] * scene->sun.irradiance[0];
+    size_t ground = 0, shadow = 0, same = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        double a = (double)gpu->rgb[3 * i], b = (double)rays->rgb[3 * i];
+        bool leaf =
+            fabs((double)gpu->rgb[3 * i] * scene->sun.irradiance[1] -
+                 (double)gpu->rgb[3 * i + 1] * scene->sun.irradiance[0]) > 1e-3 * a;
+        if (!leaf && i > WIDTH * HEIGHT / 2) {
+            ground++;
+            shadow += b < 0.5 * lit;
+            same += (a < 0.5 * lit) == (b < 0.5 * lit);
+        }
+    }
+    print_message("ground: %zu pixels, %zu in shadow, %.2f %% the same\n", ground,
+                  shadow, 100.0 * (double)same / (double)ground);
+    assert_true(ground > 5000 && shadow > 300 && shadow < ground / 2);
+    assert_true((double)same / (double)ground > 0.97);
+    pps_irradiance_free(none);
+    pps_picture_free(gpu);
+    pps_picture_free(rays);
+    stage_close(s);
+}
+
+static void a_moved_sun_gives_the_frame_of_a_fresh_one(void **state) {
+    (void)state;
+    pps_problem problem = {""};
+    preview_options o = options_for("sppg", PPS_ALL_LIGHT);
+    pps_scene *scene = three_crowns(), *other = three_crowns();
+    static const double to[3] = {0.6, 0, 0.8};
+    memcpy(other->sun.to, to, sizeof to);
+    stage *s = stage_open(scene, &o.stage, &problem),
+          *fresh = stage_open(other, &o.stage, &problem);
+    assert_true(s && fresh);
+    pps_picture *before = snapshot_draw(s, &o, &problem);
+    memcpy(scene->sun.to, to, sizeof to);
+    assert_true(stage_light_sun(s, &problem));
+    pps_picture *after = snapshot_draw(s, &o, &problem),
+                *want = snapshot_draw(fresh, &o, &problem);
+    size_t bytes = 3 * WIDTH * HEIGHT * sizeof(float);
+    assert_memory_equal(after->rgb, want->rgb, bytes);
+    assert_memory_not_equal(before->rgb, after->rgb, bytes);
+    pps_picture_free(before);
+    pps_picture_free(after);
+    pps_picture_free(want);
+    stage_close(s);
+    stage_close(fresh);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_are_pictures_by_rays),
+        cmocka_unit_test(sky_and_shadow_are_where_rays_find_them),
+        cmocka_unit_test(a_moved_sun_gives_the_frame_of_a_fresh_one),
+    };
+    return cmocka_run_group_tests(tests, open_context, close_context);
+}
