@@ -79,14 +79,19 @@ static int read_word(const char *text, const char *const *word, int n) {
     return -1;
 }
 
+/* A model that needs cells and has no field of them is none for the stage. */
+static bool previewed(const pps_light_model *model) {
+    return model->without_cells || !model->without_field;
+}
+
 bool options_model(const char *name, stage_options *out) {
     const pps_light_model *model = pps_light_model_find(name);
     if (strcmp(name, "sppg") == 0) {
         out->way = STAGE_INSTANCES;
     } else if (strcmp(name, "mc") == 0) {
         out->way = STAGE_MONTE_CARLO;
-    } else if (model) {
-        out->way = model->per_leaf ? STAGE_LEAVES : STAGE_GRID;
+    } else if (model && previewed(model)) {
+        out->way = model->without_cells ? STAGE_LEAVES : STAGE_GRID;
     } else {
         return false;
     }
@@ -97,8 +102,10 @@ bool options_model(const char *name, stage_options *out) {
 void options_model_names(char *out, size_t size) {
     size_t used = 0;
     for (size_t i = 0; i < pps_light_model_count() && used < size; i++) {
-        used += (size_t)snprintf(out + used, size - used, "%s, ",
-                                 pps_light_model_at(i)->name);
+        const pps_light_model *model = pps_light_model_at(i);
+        if (previewed(model)) {
+            used += (size_t)snprintf(out + used, size - used, "%s, ", model->name);
+        }
     }
     if (used < size) {
         snprintf(out + used, size - used, "sppg, mc");

@@ -255,10 +255,12 @@ static void next_model(view_window *w, int step) {
     }
     at = before.stage.way == STAGE_MONTE_CARLO ? n + 1 : at;
     at = (at + step + n + 2) % (n + 2);
-    options_model(at == n       ? "sppg"
-                  : at == n + 1 ? "mc"
-                                : pps_light_model_at((size_t)at)->name,
-                  &w->options.stage);
+    while (!options_model(at == n       ? "sppg"
+                          : at == n + 1 ? "mc"
+                                        : pps_light_model_at((size_t)at)->name,
+                          &w->options.stage)) {
+        at = (at + step + n + 2) % (n + 2); /* one that has no cells to show */
+    }
     stage_options *o = &w->options.stage;
     o->compensate = o->way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;
     if (!load(w, true, &problem)) {

@@ -106,20 +106,23 @@ static likeness compare(stage *s, const pps_irradiance *light,
     return like;
 }
 
+/* The sun comes to pixels here, to middles of leaves there. Where it comes as e^-depth, the
+ * mean over pixels is more than that of the mean depth: brighter, whatever the map's size
+ * (2.0 to 2.1 % with 512, 768 and 1024 texels); without the sun there is no difference. */
 static void frames_are_pictures_by_rays(void **state) {
     (void)state;
     static const struct {
         const char *model;
         unsigned sources;
-        double equal; /* the sun comes to pixels here, to middles of leaves there */
-    } row[] = {{"lattice", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
-               {"lattice", PPS_ALL_LIGHT, 0.5},
-               {"spp", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
-               {"spp", PPS_ALL_LIGHT, 0.4},
-               {"sppg", PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99},
-               {"sppg", PPS_ALL_LIGHT, 0.4},
-               {"leaf", PPS_SUN | PPS_SKY, 0.99},
-               {"mc", PPS_ALL_LIGHT, 0.99}};
+        double equal, brighter; /* at least, at most */
+    } row[] = {{"lattice", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99, 0.001},
+               {"lattice", PPS_ALL_LIGHT, 0.5, 0.01},
+               {"spp", PPS_SKY | PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99, 0.001},
+               {"spp", PPS_ALL_LIGHT, 0.4, 0.03},
+               {"sppg", PPS_SKY_INDIRECT | PPS_SUN_INDIRECT, 0.99, 0.001},
+               {"sppg", PPS_ALL_LIGHT, 0.4, 0.03},
+               {"leaf", PPS_SUN | PPS_SKY, 0.99, 0.001},
+               {"mc", PPS_ALL_LIGHT, 0.99, 0.001}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         pps_problem problem = {""};
         preview_options o = options_for(row[i].model, row[i].sources);
@@ -139,7 +142,7 @@ static void frames_are_pictures_by_rays(void **state) {
             "equal\n",
             row[i].model, row[i].sources, like.ratio, 100 * like.equal, like.n);
         assert_true(like.n > 10000);
-        assert_close(like.ratio, 1, 0.02, 0);
+        assert_true(like.ratio > 0.999 && like.ratio < 1 + row[i].brighter);
         assert_true(like.equal >= row[i].equal);
         pps_irradiance_free(shaded);
         stage_close(s);

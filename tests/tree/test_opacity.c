@@ -105,13 +105,16 @@ static double projected_area(const pps_mesh *mesh, bool wood, const double to[3]
     return sum;
 }
 
+/* Twigs are thinner than a texel of a small map, and either meet its middle or do not:
+ * 64 texels across find 4 % too much wood in a maple, 512 half a percent, 1024 .05. */
 static void counts_add_up_to_projected_areas(void **state) {
+    enum { FINE = 512 };
     (void)state;
     pps_mesh *mesh;
     assert_int_equal(pps_species_grow("cherry", 1, &mesh, NULL), PPS_OK);
     pps_directions directions = pps_directions_22();
     for (int j = 0; j < directions.n; j++) {
-        pps_opacity_map *map = map_of(mesh, directions.to[j], 0);
+        pps_opacity_map *map = map_of(mesh, directions.to[j], FINE);
         double sum = 0;
         for (size_t t = 0; t < (size_t)map->texels * (size_t)map->texels; t++) {
             sum += total(map, t);
@@ -149,18 +152,19 @@ static void cut_out_alpha_lets_light_through(void **state) {
 }
 
 static void a_branch_counts_once(void **state) {
+    enum { FINE = 1024 };
     (void)state;
     pps_mesh *mesh;
     assert_int_equal(pps_species_grow("maple", 1, &mesh, NULL), PPS_OK);
-    pps_opacity_options options = {.texels = 64, .wood = 40};
-    pps_opacity_map *light = map_of(mesh, UP, 64), *heavy;
+    pps_opacity_options options = {.texels = FINE, .wood = 40};
+    pps_opacity_map *light = map_of(mesh, UP, FINE), *heavy;
     assert_int_equal(pps_opacity_map_create(mesh, UP, &options, &heavy), PPS_OK);
     double more = 0;
-    for (size_t t = 0; t < 64 * 64; t++) {
+    for (size_t t = 0; t < FINE * FINE; t++) {
         more += total(heavy, t) - total(light, t);
     }
     assert_close(more * light->size[0] * light->size[1],
-                 39 * projected_area(mesh, true, UP), 0.03, 0);
+                 39 * projected_area(mesh, true, UP), 0.01, 0);
     pps_opacity_map_free(light);
     pps_opacity_map_free(heavy);
     pps_mesh_free(mesh);
