@@ -8,50 +8,78 @@
 
 #include "cli.h"
 
-int block_radiance(const sweep_station *own, const sweep_worker *worker,
-                   const sweep_unit *unit, double *radiance, block_answer *answer) {
-    pps_grid where = {unit->depth.n,     unit->mu.n,     unit->phi.n,
-                      unit->depth.value, unit->mu.value, unit->phi.value};
-    size_t n = where.n_tau * where.n_mu * where.n_phi;
+/* Where the answers of a unit go: radiances or fluxes. */
+typedef struct {
+    double *radiance; /* NULL for fluxes */
+    pps_flux *flux;
+} block_output;
+
+/* Beams first .. first + n - 1 of the unit. */
+static pps_status answer_beams(const sweep_worker *worker, const sweep_unit *unit,
+                               size_t first, size_t n, const block_output *out,
+                               block_answer *answer) {
+    pps_grid at = {unit->depth.n,     unit->mu.n,     unit->phi.n,
+                   unit->depth.value, unit->mu.value, unit->phi.value};
+    size_t per_beam = at.n_tau * at.n_mu * at.n_phi;
+    pps_status status = pps_model_solve_beams(worker->model, unit->thickness, n,
+                                              unit->mu0.value + first);
+
+    if (status == PPS_OK)
+        status = out->radiance ? pps_model_radiance(worker->model, &at,
+                                                    out->radiance + first * per_beam)
+                               : pps_model_flux(worker->model, at.n_tau, at.tau,
+                                                out->flux + first * at.n_tau);
+    for (size_t b = 0; b < n && status == PPS_OK; b++)
+        pps_model_query_beam(worker->model, b, &answer[first + b].info);
+    return status;
+}
+
+/* All beams at once where that saves work; false where one of them is refused, or memory
+ * for all is lacking. */
+static bool answer_together(const sweep_station *own, const sweep_worker *worker,
+                            const sweep_unit *unit, const block_output *out,
+                            block_answer *answer) {
+    bool shared = worker->method->shares_beams && own->task->grid->options.streams > 0;
+
+    return shared && unit->mu0.n > 1 &&
+           answer_beams(worker, unit, 0, unit->mu0.n, out, answer) == PPS_OK;
+}
+
+static int answer_unit(const sweep_station *own, const sweep_worker *worker,
+                       const sweep_unit *unit, const char *refusal,
+                       const block_output *out, block_answer *answer) {
+    bool together = !refusal && answer_together(own, worker, unit, out, answer);
     int rc = CLI_DONE;
 
     for (size_t b = 0; b < unit->mu0.n && rc == CLI_DONE; b++) {
-        block_answer *a = &answer[b];
-        rc = sweep_solve(worker, unit->thickness, unit->mu0.value[b], &a->refusal);
-        if (rc == CLI_DONE && !a->refusal && !worker->method->fields)
-            a->refusal = "the method gives fluxes only, no radiance";
-        if (rc == CLI_DONE && !a->refusal)
-            rc =
-                sweep_judge(pps_model_radiance(worker->model, &where, radiance + b * n),
-                            &a->refusal);
-        if (rc == CLI_DONE && !a->refusal)
-            pps_model_query(worker->model, &a->info);
+        answer[b].refusal = refusal;
+        if (!refusal && !together)
+            rc = sweep_judge(answer_beams(worker, unit, b, 1, out, answer),
+                             &answer[b].refusal);
         if (!sweep_go_on(own))
             return CLI_FAILED;
     }
     return rc;
 }
 
+int block_radiance(const sweep_station *own, const sweep_worker *worker,
+                   const sweep_unit *unit, double *radiance, block_answer *answer) {
+    const char *refusal = worker->refusal;
+
+    if (!refusal && !worker->method->fields)
+        refusal = "the method gives fluxes only, no radiance";
+    return answer_unit(own, worker, unit, refusal,
+                       &(block_output){.radiance = radiance}, answer);
+}
+
 int block_flux(const sweep_station *own, const sweep_worker *worker,
                const sweep_unit *unit, pps_flux *flux, block_answer *answer) {
-    size_t n = unit->depth.n;
-    int rc = CLI_DONE;
+    const char *refusal = worker->refusal;
 
-    for (size_t b = 0; b < unit->mu0.n && rc == CLI_DONE; b++) {
-        block_answer *a = &answer[b];
-        rc = sweep_solve(worker, unit->thickness, unit->mu0.value[b], &a->refusal);
-        if (rc == CLI_DONE && !a->refusal && !worker->method->fluxes)
-            a->refusal = "the method gives no fluxes";
-        if (rc == CLI_DONE && !a->refusal)
-            rc = sweep_judge(
-                pps_model_flux(worker->model, n, unit->depth.value, flux + b * n),
-                &a->refusal);
-        if (rc == CLI_DONE && !a->refusal)
-            pps_model_query(worker->model, &a->info);
-        if (!sweep_go_on(own))
-            return CLI_FAILED;
-    }
-    return rc;
+    if (!refusal && !worker->method->fluxes)
+        refusal = "the method gives no fluxes";
+    return answer_unit(own, worker, unit, refusal, &(block_output){.flux = flux},
+                       answer);
 }
 
 /* What method `auto` picked, and why, as a line of the notes; nothing for the others. */

@@ -10,6 +10,9 @@
 #include <string.h>
 
 #include <cblas.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <ppscat/ppscat.h>
 
 #include "cli.h"
@@ -126,6 +129,10 @@ int main(int argc, char **argv) {
 
     signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error with its message */
     openblas_set_num_threads(1); /* the threads are ours */
+#ifdef M_TRIM_THRESHOLD /* else free() hands pages back, to be faulted in again */
+    mallopt(M_TRIM_THRESHOLD, 1 << 28);
+    mallopt(M_MMAP_THRESHOLD, 1 << 25); /* the largest that glibc takes */
+#endif
     rc = team_begin(&argc, &argv);
     if (rc == CLI_DONE)
         rc = dispatch(argc, argv);

@@ -422,5 +422,6 @@ const pps_method pps_method_exact = {
     .fields = true,
     .fluxes = true,
     .half_space = true,
+    .shares_beams = true,
     .ops = &ops,
 };

@@ -89,7 +89,7 @@ static const struct {
     double cost;
 } candidate[] = {
 #define ROW(name, streams, cost) {name, streams, cost},
-    PPS_AUTO_CANDIDATES(ROW) ROW("exact", 4, 16)
+    PPS_AUTO_CANDIDATES(ROW) ROW("exact", 4, 11)
 #undef ROW
 };
 enum { N_CANDIDATES = PPS_AUTO_N_CANDIDATES + 1 };
@@ -138,7 +138,7 @@ static double cost_of(const pps_info *info) {
             return candidate[c].cost;
         }
     }
-    return 2.0 * info->streams * info->streams;
+    return 2 * 0.6 * pow(info->streams, 1.6);
 }
 
 /* ---- one slab ---- */

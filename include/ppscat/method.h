@@ -68,6 +68,7 @@ typedef struct pps_method {
     const char *summary; /* one line */
     const char *limits;  /* where it is wrong or refuses */
     bool fields, fluxes, half_space;
+    bool shares_beams; /* with given streams, many beams cost little more than one */
     const pps_method_ops *ops; /* private */
 } pps_method;
 

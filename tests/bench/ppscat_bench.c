@@ -335,7 +335,7 @@ int main(int argc, char **argv) {
     openblas_set_num_threads(1);
 #ifdef M_TRIM_THRESHOLD /* else free() hands pages back, and each case faults them in */
     mallopt(M_TRIM_THRESHOLD, 1 << 28);
-    mallopt(M_MMAP_THRESHOLD, 1 << 28);
+    mallopt(M_MMAP_THRESHOLD, 1 << 25); /* the largest that glibc takes */
 #endif
     if (argc == 2) {
         csv = fopen(argv[1], "w");

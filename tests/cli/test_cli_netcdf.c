@@ -199,10 +199,12 @@ static void deflated_values_are_the_same(void **state) {
     good(nc_close(packed));
 }
 
-/* Killed, then resumed with -j 1: the same numbers, though the date differs. */
+/* Killed, then resumed with -j 1: the same numbers, though the date differs. Photons take
+ * long enough to be killed amid them. */
 static void a_killed_run_goes_on(void **state) {
-    const char *sweep = "flux --albedo 0.5:1:40 --thickness 1:10:10 --mu0 0.02:1:50 "
-                        "--format netcdf";
+    const char *sweep =
+        "flux --method mc --photons 100 --albedo 0.5:1:40 --thickness 1:10:10 "
+        "--mu0 0.02:1:50 --format netcdf";
     char line[512];
     result r;
     bool left = false;
@@ -226,7 +228,9 @@ static void a_killed_run_goes_on(void **state) {
     assert_false(file_exists("k.nc.part-values"));
     assert_false(file_exists("k.nc.part-journal"));
     result_free(&r);
-    whole = make("flux --albedo 0.5:1:40 --thickness 1:10:10 --mu0 0.02:1:50", "w.nc");
+    whole = make("flux --method mc --photons 100 --albedo 0.5:1:40 --thickness 1:10:10 "
+                 "--mu0 0.02:1:50",
+                 "w.nc");
     good(nc_open("k.nc", NC_NOWRITE, &killed));
     good(nc_get_var_double(whole, variable_of(whole, "flux_down"), a));
     good(nc_get_var_double(killed, variable_of(killed, "flux_down"), b));
