@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double DEFAULT_BIN = 0.5;
-enum { DEFAULT_RAYS = 2000000, DEFAULT_SAMPLES = 16 };
+enum { DEFAULT_RAYS = 2000000 };
 static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category */
 
 /* ---- categories ---- */
@@ -281,7 +281,7 @@ pps_status pps_experiment_run(const pps_experiment *e, size_t n,
     pps_cells *cells = NULL;
     pps_irradiance *truth = NULL;
     pps_cells_options options = {.across = e->across,
-                                 .samples = e->samples ? e->samples : DEFAULT_SAMPLES,
+                                 .samples = e->samples,
                                  .seed = e->seed,
                                  .threads = e->threads};
     pps_trace_options trace = {.rays = e->rays ? e->rays : DEFAULT_RAYS,

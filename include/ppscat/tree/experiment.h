@@ -56,7 +56,7 @@ typedef struct pps_experiment {
     bool sky;      /* lit by a sky, horizon .5 and zenith 1, instead of the sun */
     int n_bands;
     double albedo[PPS_BANDS_MAX];
-    int across, samples; /* of the cells; 0: 16, 16 */
+    int across, samples; /* of the cells; 0: their defaults */
     double bin;          /* 0: 0.5 */
     uint64_t rays;       /* Monte Carlo; 0: 2000000 */
     uint64_t seed;       /* of rays and of points on leaves */
