@@ -126,8 +126,8 @@ static uint32_t cell_at(const pps_cells *c, const double point[3]) {
 
 static pps_leaf_point point_at(const pps_cells_own *own, uint64_t i) {
     pps_leaf_point p;
-    pps_leaf_point_draw(own->scene, i / own->samples, own->seed, PPS_RANDOM_CELLS, i,
-                        &p);
+    pps_leaf_point_spread(own->scene, i / own->samples, own->seed, PPS_RANDOM_CELLS,
+                          i % own->samples, own->samples, &p);
     return p;
 }
 
