@@ -74,7 +74,7 @@ static const column table_columns[] = {
     {"ratio", "double", "1", "3, crowns, figure7: mean of ours / mean of Monte Carlo"},
     {"spread", "double", "1", "3, crowns, figure7: half the range of `ours` over the seeds"},
     {"seconds_per_cell", "double", "s",
-     "crowns: time to light a cell with leaves, without what is made once a scene; "
+     "crowns: time of one core to light a cell with leaves, without what is made once a scene; "
      "differs from run to run"},
     {0}};
 

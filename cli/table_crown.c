@@ -270,7 +270,8 @@ static int run(const invocation *call, bool crowns_table) {
 
 int table_3(const invocation *call) {
     return option_given(call, OPT_TREE_FILE)
-               ? cli_usage("--tree: '%.60s' is for `table crowns`", call->text[OPT_TREE_FILE])
+               ? cli_usage("--tree: '%.60s' is for `table crowns`",
+                           call->text[OPT_TREE_FILE])
                : run(call, false);
 }
 

@@ -36,7 +36,7 @@ set grid linestyle 100
 stats csv using "seconds_per_cell" name "time" nooutput
 set xrange [time_min/2:time_max*2]
 set yrange [1:110]
-set xtics ("10 ns" 1e-8, "100 ns" 1e-7, "1 µs" 1e-6, "10 µs" 1e-5, "100 µs" 1e-4, "1 ms" 1e-3)
+set xtics ("100 ns" 1e-7, "1 µs" 1e-6, "10 µs" 1e-5, "100 µs" 1e-4, "1 ms" 1e-3)
 unset key
 
 left = 0.06; right = 0.012; top = 0.15; bottom = 0.245
@@ -52,8 +52,9 @@ do for [k = 1:n_rows] {
     set tmargin at screen 1-top
     set bmargin at screen bottom
     set title row_of[k] noenhanced offset 0,-0.5 font ",13"
-    set xlabel "time per cell with leaves"
+    set xlabel "time per cell with leaves, one core"
     set ylabel (k == 1 ? "error" : "")
+    if (k > 1) { set xtics add ("" 1e-7) }
     if (k == 1) {
         set ytics ("1 %%" 1, "2 %%" 2, "5 %%" 5, "10 %%" 10, "20 %%" 20, "50 %%" 50, "100 %%" 100)
     } else {

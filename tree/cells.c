@@ -240,7 +240,7 @@ static void measure_directions(pps_cells_own *own, int threads) {
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
     for (size_t cell = 0; cell < c->n_cells; cell++) {
         along mean[MOST_DIRECTIONS];
-        c->both_clear[cell] = 
+        c->both_clear[cell] =
             measure_cell(own, cell, own->most_points, (int)n, c->directions.to, mean);
         for (size_t j = 0; j < n; j++) {
             c->depth[cell * n + j] = (float)mean[j].depth;

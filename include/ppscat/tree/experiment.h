@@ -37,8 +37,8 @@ typedef struct pps_score {
                                           one turned away each for itself */
     int categories[PPS_SCORE_LEVELS];
     double brightness;       /* mean irradiance over the reference's */
-    double seconds_per_cell; /* for each with leaves, from no answer, without what
-                                is made once a scene */
+    double seconds_per_cell; /* of one core, for each with leaves, from no answer,
+                                without what is made once a scene */
 } pps_score;
 
 /* Score every contender in every band against `reference`, a Monte Carlo answer to the
