@@ -12,8 +12,9 @@ static const struct {
     const char *name;
     int (*run)(const invocation *call);
 } tables[] = {
-    {"1", table_1},     {"2", table_2}, {"3", table_3}, {"figure7", table_figure7},
-    {"fps", table_fps},
+    {"1", table_1},     {"2", table_2},
+    {"3", table_3},     {"figure7", table_figure7},
+    {"fps", table_fps}, {"crowns", table_crowns},
 };
 enum { N_TABLES = sizeof tables / sizeof tables[0] };
 

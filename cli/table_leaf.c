@@ -37,6 +37,7 @@ static int write_row(output *out, const table_row *r) {
     csv_text(&out->csv, r->method);
     csv_number(&out->csv, r->ratio);
     csv_number(&out->csv, r->spread);
+    csv_number(&out->csv, CSV_EMPTY);
     return output_end_row(out, NULL, NULL);
 }
 

@@ -142,6 +142,7 @@ static int write_row(output *out, const paper_table *table, size_t row,
     csv_text(&out->csv, method->name);
     csv_number(&out->csv, CSV_EMPTY);
     csv_number(&out->csv, CSV_EMPTY);
+    csv_number(&out->csv, CSV_EMPTY);
     return output_end_row(out, c->refused_by, c->refusal);
 }
 

@@ -8,7 +8,8 @@
 
 int table_1(const invocation *call); /* table_slab.c */
 int table_2(const invocation *call);
-int table_3(const invocation *call);       /* table_crown.c */
+int table_3(const invocation *call); /* table_crown.c */
+int table_crowns(const invocation *call);
 int table_figure7(const invocation *call); /* table_leaf.c */
 int table_fps(const invocation *call);
 

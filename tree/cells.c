@@ -20,7 +20,12 @@
 #include "tree/rays.h"
 #include "tree/vec.h"
 
-enum { DEFAULT_ACROSS = 16, DEFAULT_SAMPLES = 4, MOST_DIRECTIONS = 22 };
+enum {
+    DEFAULT_ACROSS = 16,
+    DEFAULT_SAMPLES = 8,
+    DEFAULT_POINTS = 64,
+    MOST_DIRECTIONS = 22
+};
 static const double MOST_CELLS = 1e9;
 
 /* The public struct, and what it takes to trace more rays from the same points. */
@@ -29,7 +34,7 @@ typedef struct {
     pps_rays *rays;
     const pps_scene *scene;
     uint64_t seed;
-    size_t samples, n_points;
+    size_t samples, most_points, n_points;
     uint64_t *point; /* leaf * samples + sample, sorted by cell */
     size_t *first;   /* of each cell's points; n_cells + 1 */
 } pps_cells_own;
@@ -122,8 +127,8 @@ static uint32_t cell_at(const pps_cells *c, const double point[3]) {
 
 static pps_leaf_point point_at(const pps_cells_own *own, uint64_t i) {
     pps_leaf_point p;
-    pps_leaf_point_draw(own->scene, i / own->samples, own->seed, PPS_RANDOM_CELLS, i,
-                        &p);
+    pps_leaf_point_spread(own->scene, i / own->samples, own->seed, PPS_RANDOM_CELLS,
+                          i % own->samples, own->samples, &p);
     return p;
 }
 
@@ -191,14 +196,19 @@ typedef struct {
 
 /* Means over the points of a cell towards n directions: depths by leaf area, visibilities
  * by the area seen from there, as light falls on leaves. Returns the mean over pairs of
- * directions of both being clear, by the areas seen. */
-static double measure_cell(const pps_cells_own *own, size_t cell, int n,
+ * directions of both being clear, by the areas seen. Of the points it takes at most
+ * `most`, at equal steps in the order of leaves. */
+static double measure_cell(const pps_cells_own *own, size_t cell, size_t most, int n,
                            const double (*to)[3], along *mean) {
     double whole = 0, pairs = 0, clear_pairs = 0;
+    size_t n_points = own->first[cell + 1] - own->first[cell];
+    size_t n_used = n_points < most ? n_points : most;
     memset(mean, 0, (size_t)n * sizeof *mean);
-    for (size_t i = own->first[cell]; i < own->first[cell + 1]; i++) {
-        pps_leaf_point p = point_at(own, own->point[i]);
-        double weight = weight_of(own, own->point[i]);
+    for (size_t k = 0; k < n_used; k++) {
+        size_t step = (2 * k + 1) * n_points / (2 * n_used);
+        uint64_t i = own->point[own->first[cell] + step];
+        pps_leaf_point p = point_at(own, i);
+        double weight = weight_of(own, i);
         double seen[2] = {0, 0}, squares[2] = {0, 0}; /* all, clear */
         whole += weight;
         for (int j = 0; j < n; j++) {
@@ -231,7 +241,8 @@ static void measure_directions(pps_cells_own *own, int threads) {
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
     for (size_t cell = 0; cell < c->n_cells; cell++) {
         along mean[MOST_DIRECTIONS];
-        c->both_clear[cell] = measure_cell(own, cell, (int)n, c->directions.to, mean);
+        c->both_clear[cell] =
+            measure_cell(own, cell, own->most_points, (int)n, c->directions.to, mean);
         for (size_t j = 0; j < n; j++) {
             c->depth[cell * n + j] = (float)mean[j].depth;
             c->visibility[cell * n + j] = (float)mean[j].visibility;
@@ -254,7 +265,7 @@ pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
 #pragma omp parallel for num_threads(thread_count(options)) schedule(dynamic, 16)
     for (size_t cell = 0; cell < cells->n_cells; cell++) {
         along mean[2];
-        measure_cell(own, cell, 2, to, mean);
+        measure_cell(own, cell, SIZE_MAX, 2, to, mean);
         cells->sun_depth[cell] = mean[0].depth;
         cells->sun_behind[cell] = mean[1].depth;
         cells->sun_visibility[cell] = mean[0].visibility;
@@ -311,7 +322,8 @@ pps_status pps_cells_create(const pps_scene *scene, const pps_cells_options *opt
 pps_status pps_cells_create_bare(const pps_scene *scene,
                                  const pps_cells_options *options, pps_cells **out) {
     *out = NULL;
-    if (!scene || !scene->first_leaf || (options && options->samples < 0)) {
+    if (!scene || !scene->first_leaf ||
+        (options && (options->samples < 0 || options->most_points < 0))) {
         return PPS_ERR_ARGUMENT;
     }
     pps_cells_own *own = calloc(1, sizeof *own);
@@ -323,6 +335,8 @@ pps_status pps_cells_create_bare(const pps_scene *scene,
     own->seed = options ? options->seed : 0;
     own->samples =
         options && options->samples ? (size_t)options->samples : DEFAULT_SAMPLES;
+    own->most_points =
+        options && options->most_points ? (size_t)options->most_points : DEFAULT_POINTS;
     own->n_points = scene->n_leaves * own->samples;
     pps_status status = build(own, options);
     if (status) {

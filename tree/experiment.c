@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double DEFAULT_BIN = 0.5;
-enum { DEFAULT_RAYS = 2000000, DEFAULT_SAMPLES = 16 };
+enum { DEFAULT_RAYS = 2000000, N_TIMED = 5 };
 static const double LEVEL[PPS_SCORE_LEVELS] = {20, 100}; /* triangles a category */
 
 /* ---- categories ---- */
@@ -148,10 +148,29 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Solve and light the leaves; a second solve is timed, for what is made once is made. */
-static pps_status run_model(const pps_contender *c, const pps_scene *scene,
+/* Solve from no answer, with what is made once a scene at hand; the least of some times,
+ * for other programs only add to it. */
+static pps_status time_solve(const pps_contender *c, const pps_scene *scene,
+                             const pps_cells *cells, pps_light_field **field,
+                             double *seconds) {
+    pps_status status = PPS_OK;
+    *seconds = INFINITY;
+    for (int i = 0; i < N_TIMED && !status; i++) {
+        double start = now();
+        pps_light_field_forget(*field);
+        status = pps_light_field_solve(c->model, scene, cells, &c->options, field);
+        *seconds = fmin(*seconds, now() - start);
+    }
+    return status;
+}
+
+/* Solve and light the leaves, and time it; on one core, whose time means the same
+ * whatever else runs. */
+static pps_status run_model(const pps_contender *given, const pps_scene *scene,
                             const pps_cells *cells, double *seconds,
                             pps_irradiance **out) {
+    pps_contender alone = *given, *c = &alone;
+    c->options.threads = c->options.threads ? c->options.threads : 1;
     pps_light_field *field = NULL;
     if (!c->model->ops->solve) {
         double start = now();
@@ -163,10 +182,7 @@ static pps_status run_model(const pps_contender *c, const pps_scene *scene,
     pps_status status =
         pps_light_field_solve(c->model, scene, cells, &c->options, &field);
     if (!status) {
-        double start = now();
-        pps_light_field_forget(field);
-        status = pps_light_field_solve(c->model, scene, cells, &c->options, &field);
-        *seconds = now() - start;
+        status = time_solve(c, scene, cells, &field, seconds);
     }
     if (!status) {
         status = pps_light_field_leaves(field, scene, cells, c->options.sources, out);
@@ -220,10 +236,10 @@ static const pps_contender contenders[] = {
     ROW("SPPG", spp_printed, .compensate = PPS_COMPENSATE_DERIVED),
     ROW("SPP", spp_printed, .compensate = PPS_COMPENSATE_NONE),
     ROW("SS", ss, .compensate = PPS_COMPENSATE_NONE),
-    ROW("SPPG, printed G", spp_printed, .compensate = PPS_COMPENSATE_PRINTED),
-    ROW("SPPG, kappa 1", spp, .compensate = PPS_COMPENSATE_DERIVED),
-    ROW("SPP, kappa 1", spp, .compensate = PPS_COMPENSATE_NONE),
-    ROW("hemispheric, G", hemispheric, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("SPPG (printed G)", spp_printed, .compensate = PPS_COMPENSATE_PRINTED),
+    ROW("SPPG (kappa 1)", spp, .compensate = PPS_COMPENSATE_DERIVED),
+    ROW("SPP (kappa 1)", spp, .compensate = PPS_COMPENSATE_NONE),
+    ROW("hemispheric with G", hemispheric, .compensate = PPS_COMPENSATE_DERIVED),
     ROW("hemispheric", hemispheric, .compensate = PPS_COMPENSATE_NONE),
     ROW("march-g", march_g, .compensate = PPS_COMPENSATE_DERIVED),
     ROW("self-consistent", self_consistent, .compensate = PPS_COMPENSATE_NONE),
@@ -281,7 +297,7 @@ pps_status pps_experiment_run(const pps_experiment *e, size_t n,
     pps_cells *cells = NULL;
     pps_irradiance *truth = NULL;
     pps_cells_options options = {.across = e->across,
-                                 .samples = e->samples ? e->samples : DEFAULT_SAMPLES,
+                                 .samples = e->samples,
                                  .seed = e->seed,
                                  .threads = e->threads};
     pps_trace_options trace = {.rays = e->rays ? e->rays : DEFAULT_RAYS,

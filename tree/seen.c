@@ -50,7 +50,7 @@ static void look(const pps_rays *rays, const double to[3], int n, pixel *seen) {
             }
             bool any = pps_rays_nearest(rays, &line, &hit);
             seen[row * n + column] =
-                (pixel){any ? hit.leaf : SIZE_MAX, hit.front ? PPS_FRONT : PPS_BACK};
+                (pixel){any ? hit.leaf : SIZE_MAX, any && hit.front ? PPS_FRONT : PPS_BACK};
         }
     }
 }

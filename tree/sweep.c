@@ -2,8 +2,9 @@
  *
  *   I = (source + sum_i 2 |c_i| in_i) / (depth + sum_i 2 |c_i|),  out_i = 2 I - in_i,
  *
- * no face below 0. Second order in the size of the cells, and it conserves energy but
- * where a face was held at 0.
+ * Second order in the size of the cells. A face below 0 is held at 0, and the others give
+ * up what that adds: held alone, shadows' edges make light, and a hollow crown in a forest
+ * is 3 % bright at albedo .95.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tree/sweep.h"
@@ -13,6 +14,7 @@
 #include <string.h>
 
 enum { W = PPS_SWEEP_WIDTH };
+static const float TINY = 1e-30f;
 
 /* ---- the plan ---- */
 
@@ -205,9 +207,17 @@ sweep_row(const int n, const pps_sweeper *s, const pps_sweep_group *g,
                            g->twice[2][d] * in_z[d];
             pps_bands intensity = inverse * (in + g->twice[0][d] * in_x[d]);
             pps_bands twice = intensity + intensity;
-            in_x[d] = pps_bands_at_least_0(twice - in_x[d]);
-            in_y[d] = pps_bands_at_least_0(twice - in_y[d]);
-            in_z[d] = pps_bands_at_least_0(twice - in_z[d]);
+            pps_bands out[3] = {twice - in_x[d], twice - in_y[d], twice - in_z[d]};
+            pps_bands held[3], leaves = {0}, would = {0};
+            for (int k = 0; k < 3; k++) {
+                held[k] = pps_bands_at_least_0(out[k]);
+                leaves += g->twice[k][d] * out[k];
+                would += g->twice[k][d] * held[k];
+            }
+            pps_bands share = pps_bands_at_least_0(leaves) / (would + TINY);
+            in_x[d] = share * held[0];
+            in_y[d] = share * held[1];
+            in_z[d] = share * held[2];
             total += g->weight[d] * intensity;
             for (int k = 0; flux && k < 3; k++) {
                 net[k] += g->net[k][d] * intensity;

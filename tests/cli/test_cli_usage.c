@@ -89,7 +89,7 @@ static const struct {
     {"error --albedo 2", "--albedo", "'2'", "0 to 1"},
     {"flux --mu0 nan", "--mu0", "nan", "above 0"},
     {"table", "table", "''", "1, 2"},
-    {"table 9", "table", "'9'", "1, 2, 3, figure7, fps"},
+    {"table 9", "table", "'9'", "1, 2, 3, figure7, fps, crowns"},
     {"table 1 2", "table", "'2'", "one N"},
     {"table 1 --albedo 0.5", "--albedo", "table", "--help"},
     {"fields", "fields", "did you mean 'field'", "flux"},

@@ -3,6 +3,8 @@
  *
  *     cmake --build --preset release --target bench_light && build/release/tests/tree/bench_light
  *
+ * With a scene file, the times of cells and `lattice`, on one crown and on that scene.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +13,7 @@
 #include <omp.h>
 
 #include <ppscat/tree/cells.h>
+#include <ppscat/tree/field.h>
 #include <ppscat/tree/light.h>
 
 #include "plants.h"
@@ -85,7 +88,62 @@ static void time_cells(void) {
     pps_scene_free(scene);
 }
 
-int main(void) {
+/* What `lattice` makes once a scene, and its answers from no light. */
+static void time_lattice(const pps_scene *scene, const char *what) {
+    char line[128];
+    pps_cells *cells;
+    pps_light_field *field = NULL;
+    const pps_light_model *lattice = pps_light_model_find("lattice");
+    times start = now();
+    if (pps_cells_create(scene, NULL, &cells) ||
+        pps_cells_set_sun(cells, scene, NULL)) {
+        return;
+    }
+    snprintf(line, sizeof line, "%s: %d x %d x %d cells", what, cells->n[0],
+             cells->n[1], cells->n[2]);
+    print_since(start, line);
+    start = now();
+    pps_status status = pps_light_field_solve(lattice, scene, cells, NULL, &field);
+    print_since(start, status ? "    failed" : "    lattice made and solved");
+    for (int i = 0; i < 3 && !status; i++) {
+        pps_light_field_forget(field);
+        start = now();
+        status = pps_light_field_solve(lattice, scene, cells, NULL, &field);
+        snprintf(line, sizeof line, "    solved from no light, %d sweeps, ms",
+                 field->sweeps);
+        times end = now();
+        printf("%-66s %7.2f %7.2f\n", line, 1e3 * (end.wall - start.wall),
+               1e3 * (end.cpu - start.cpu));
+    }
+    pps_light_field_free(field);
+    pps_cells_free(cells);
+}
+
+/* One crown in four bands, and the forest that a file names. */
+static void time_lattices(const char *forest) {
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 4, 9000, 1);
+    pps_problem problem;
+    scene->n_bands = 4;
+    for (int b = 0; b < 4; b++) {
+        scene->sun.irradiance[b] = 1;
+        for (int face = 0; face < 2; face++) {
+            scene->prototype[0].optics.reflectance[face][b] = 0.2 + 0.09 * b;
+            scene->prototype[0].optics.transmittance[face][b] = 0.2 + 0.09 * b;
+        }
+    }
+    time_lattice(scene, "one crown, four bands");
+    pps_scene_free(scene);
+    if (pps_scene_read(forest, &scene, &problem) == PPS_OK) {
+        time_lattice(scene, forest);
+        pps_scene_free(scene);
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) {
+        time_lattices(argv[1]);
+        return 0;
+    }
     printf("%-66s %7s %7s\n", "seconds", "wall", "cpu");
     time_queries();
     time_tracing(1, 0);

@@ -13,7 +13,8 @@
 
 static pps_cells *make_cells(const pps_scene *scene, int across, int samples,
                              int threads) {
-    pps_cells_options options = {across, samples, 11, threads};
+    pps_cells_options options = {
+        .across = across, .samples = samples, .seed = 11, .threads = threads};
     pps_cells *cells;
     assert_int_equal(pps_cells_create(scene, &options, &cells), PPS_OK);
     assert_int_equal(pps_cells_set_sun(cells, scene, &options), PPS_OK);
@@ -145,6 +146,39 @@ static void a_layer_attenuates_as_beer_has_it(void **state) {
     pps_scene_free(scene);
 }
 
+/* With fewer points a cell the directions get noisier, not different; the sun keeps all. */
+static void few_points_a_cell_are_a_fair_sample(void **state) {
+    (void)state;
+    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 4, 4000, 8);
+    pps_cells_options options = {.across = 4, .samples = 4, .seed = 11};
+    pps_cells *few, *all;
+    options.most_points = 20;
+    assert_int_equal(pps_cells_create(scene, &options, &few), PPS_OK);
+    options.most_points = 1000000;
+    assert_int_equal(pps_cells_create(scene, &options, &all), PPS_OK);
+    assert_int_equal(pps_cells_set_sun(few, scene, NULL), PPS_OK);
+    assert_int_equal(pps_cells_set_sun(all, scene, NULL), PPS_OK);
+    size_t n = all->n_cells;
+    assert_memory_equal(few->sun_depth, all->sun_depth, n * sizeof *few->sun_depth);
+    assert_memory_equal(few->area, all->area, n * sizeof *few->area);
+    double off = 0, spread = 0, count = 0;
+    for (size_t i = 0; i < 22 * n; i++) {
+        if (all->n_leaves[i / 22] > 40) {
+            double d = (double)few->visibility[i] - (double)all->visibility[i];
+            off += d;
+            spread += d * d;
+            count++;
+        }
+    }
+    assert_true(count > 500);
+    /* 20 points: at most sqrt(.25/20) = .11 each; those of a cell share their blockers */
+    assert_true(sqrt(spread / count) > 0.02 && sqrt(spread / count) < 0.11);
+    assert_close(off / count, 0, 0, 4 * 0.11 / sqrt(count / 22));
+    pps_cells_free(few);
+    pps_cells_free(all);
+    pps_scene_free(scene);
+}
+
 static void threads_never_change_a_bit(void **state) {
     (void)state;
     pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 4, 1500, 8);
@@ -167,7 +201,8 @@ static void what_cannot_be_done_is_refused(void **state) {
     pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 1, 50, 8);
     pps_cells *cells;
     pps_cells_options negative = {.across = -1}, none = {.samples = -1},
-                      fine = {.across = 100000};
+                      fine = {.across = 100000}, few = {.most_points = -1};
+    assert_int_equal(pps_cells_create(scene, &few, &cells), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_cells_create(scene, &negative, &cells), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_cells_create(scene, &none, &cells), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_cells_create(scene, &fine, &cells), PPS_ERR_ARGUMENT);
@@ -188,6 +223,7 @@ int main(void) {
         cmocka_unit_test(a_stack_of_sheets_has_whole_depths),
         cmocka_unit_test(grids_cover_the_leaves),
         cmocka_unit_test(a_layer_attenuates_as_beer_has_it),
+        cmocka_unit_test(few_points_a_cell_are_a_fair_sample),
         cmocka_unit_test(threads_never_change_a_bit),
         cmocka_unit_test(what_cannot_be_done_is_refused),
     };

@@ -26,9 +26,11 @@ typedef struct pps_cells_options {
     int across;  /* cells across the longest side of the leaves' box, of the largest
                     plant in a scene of many; 0: 16. Repeating scenes: as near to it as
                     divides the periods */
-    int samples; /* points a leaf that depths are averaged over; 0: 4 */
+    int samples; /* points a leaf that depths are averaged over; 0: 8 */
     uint64_t seed;
-    int threads; /* 0: all cores; never changes the answer */
+    int threads;     /* 0: all cores; never changes the answer */
+    int most_points; /* of a cell, for depths and visibilities towards the directions (a
+                        forest has many leaves a cell); 0: 64. The sun's use them all */
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].

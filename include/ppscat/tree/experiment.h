@@ -37,8 +37,8 @@ typedef struct pps_score {
                                           one turned away each for itself */
     int categories[PPS_SCORE_LEVELS];
     double brightness;       /* mean irradiance over the reference's */
-    double seconds_per_cell; /* for each with leaves, from no answer, without what
-                                is made once a scene */
+    double seconds_per_cell; /* of one core, for each with leaves, from no answer,
+                                without what is made once a scene */
 } pps_score;
 
 /* Score every contender in every band against `reference`, a Monte Carlo answer to the
@@ -56,7 +56,7 @@ typedef struct pps_experiment {
     bool sky;      /* lit by a sky, horizon .5 and zenith 1, instead of the sun */
     int n_bands;
     double albedo[PPS_BANDS_MAX];
-    int across, samples; /* of the cells; 0: 16, 16 */
+    int across, samples; /* of the cells; 0: their defaults */
     double bin;          /* 0: 0.5 */
     uint64_t rays;       /* Monte Carlo; 0: 2000000 */
     uint64_t seed;       /* of rays and of points on leaves */
