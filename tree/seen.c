@@ -49,8 +49,8 @@ static void look(const pps_rays *rays, const double to[3], int n, pixel *seen) {
                 line.direction[k] = -to[k];
             }
             bool any = pps_rays_nearest(rays, &line, &hit);
-            seen[row * n + column] =
-                (pixel){any ? hit.leaf : SIZE_MAX, any && hit.front ? PPS_FRONT : PPS_BACK};
+            seen[row * n + column] = (pixel){any ? hit.leaf : SIZE_MAX,
+                                             any && hit.front ? PPS_FRONT : PPS_BACK};
         }
     }
 }
