@@ -149,7 +149,7 @@ static void a_killed_and_resumed_file_is_the_uninterrupted_one(void **state) {
 
 /* Methods that come together and are written one after the other; all but the times. */
 static void a_killed_and_resumed_error_sweep_is_the_uninterrupted_one(void **state) {
-    const char *sweep = "error --method spp,single,exact --mu0 0.1:1:20 --streams 16 "
+    const char *sweep = "error --method spp,single,exact --mu0 0.1:1:60 --streams 16 "
                         "--albedo " ALBEDOS;
     char line[256];
     double begin = now(), seconds;
@@ -158,7 +158,7 @@ static void a_killed_and_resumed_error_sweep_is_the_uninterrupted_one(void **sta
     snprintf(line, sizeof line, "%s -j 1 -o whole.csv", sweep);
     run_well(line);
     seconds = now() - begin;
-    kill_and_resume(sweep, "killed.csv", 0.5 * seconds);
+    kill_and_resume(sweep, "killed.csv", 0.7 * seconds);
     assert_int_equal(
         system("cut -d, -f1-10 whole.csv >a; cut -d, -f1-10 killed.csv >b"), 0);
     assert_true(same_files("a", "b"));
