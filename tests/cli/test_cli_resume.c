@@ -27,7 +27,7 @@
 enum { KILLS = 20 };
 
 /* About a second of work. */
-#define SWEEP "flux --g 0,0.5 --thickness 1:10:10 --mu0 0.02:1:50 --albedo " ALBEDOS
+#define SWEEP "flux --g 0,0.5 --thickness 1:10:60 --mu0 0.02:1:50 --albedo " ALBEDOS
 /* A case of it takes minutes. */
 #define SLOW "flux --method hemispheric,mc --photons 100000000 --albedo 0.9,0.99 "
 
