@@ -3,25 +3,21 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "grid.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli.h"
 #include "csv.h"
 #include "directions.h"
-#include "system.h"
-#include "team.h"
+#include "names.h"
 #include "values.h"
 
 enum {
-    DEFAULT_NODES = 8,   /* Gauss nodes a hemisphere: --mu */
-    ERROR_NODES = 16,    /* the same for `error` */
-    ERROR_AZIMUTHS = 19, /* every 10 degrees */
-    MAX_THREADS = 4096
+    DEFAULT_NODES = 8,  /* Gauss nodes a hemisphere: --mu */
+    ERROR_NODES = 16,   /* the same for `error` */
+    ERROR_AZIMUTHS = 19 /* every 10 degrees */
 };
 
 static const double error_depth_cap = 10;
@@ -52,47 +48,27 @@ static int read_cosines(const invocation *call, option_id angle, option_id cosin
 
 /* ---- methods ---- */
 
-/* No such method: say which there are. */
-static int refuse_method(const char *name) {
-    size_t n, length = 0;
-    const pps_method *const *table = pps_method_table(&n);
-    const char **names = malloc(n * sizeof(char *)), *closest;
-    char all[512] = "";
+static const char *method_name(size_t i) {
+    size_t n;
 
-    if (!names)
-        return cli_no_memory();
-    for (size_t i = 0; i < n; i++) {
-        names[i] = table[i]->name;
-        if (length < sizeof all)
-            length += (size_t)snprintf(all + length, sizeof all - length, "%s%s",
-                                       i ? ", " : "", names[i]);
-    }
-    closest = cli_closest(name, n, names);
-    free(names);
-    return cli_usage("--method: unknown method '%.60s'; %s%s%sallowed: %s", name,
-                     closest ? "did you mean '" : "", closest ? closest : "",
-                     closest ? "'? " : "", all);
+    return pps_method_table(&n)[i]->name;
 }
 
 static int read_methods(const invocation *call, case_grid *grid) {
-    const char *at = option_text(call, OPT_METHOD);
-    size_t room = 1;
+    name_table table = {.kind = "method", .name = method_name};
+    const pps_method *const *method = pps_method_table(&table.n);
+    name_list chosen;
+    int rc = names_read(call, OPT_METHOD, &table, &chosen);
 
-    for (const char *c = at; *c; c++)
-        room += *c == ',';
+    if (rc != CLI_DONE)
+        return rc;
     /* an array of pointers: NOLINTNEXTLINE(bugprone-sizeof-expression) */
-    grid->method = malloc(room * sizeof *grid->method);
+    grid->method = malloc(chosen.n * sizeof *grid->method);
     if (!grid->method)
         return cli_no_memory();
-    for (; grid->n_methods < room; grid->n_methods++) {
-        char name[64];
-        size_t length = strcspn(at, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(length < 64 ? length : 63), at);
-        grid->method[grid->n_methods] = pps_method_find(name);
-        if (!grid->method[grid->n_methods])
-            return refuse_method(name);
-        at += length + 1;
-    }
+    grid->n_methods = chosen.n;
+    for (size_t i = 0; i < chosen.n; i++)
+        grid->method[i] = method[chosen.index[i]];
     return CLI_DONE;
 }
 

@@ -17,7 +17,6 @@
 #include <string.h>
 
 #include "cli.h"
-#include "output.h"
 #include "progress.h"
 #include "system.h"
 #include "values.h"
@@ -62,34 +61,30 @@ static double paper_figure(const crown_row *crown, const char *label) {
     return CSV_EMPTY;
 }
 
-/* One contender over the seeds: score[seed * n]. */
-static int write_score(output *out, const char *number, const char *row, double paper,
-                       int level, size_t n, const pps_contender *contender,
-                       const pps_score *score) {
-    double mean = 0, by_count = 0, ratio = 0, seconds = INFINITY;
+/* Means of one contender over the seeds, score[seed * n]; and half the range. */
+static table_row summarize(const char *number, const char *row, double paper, int level,
+                           size_t n, const pps_contender *contender,
+                           const pps_score *score) {
     double least = INFINITY, most = -INFINITY;
+    table_row r = {.table = number,
+                   .row = row,
+                   .column = contender->label,
+                   .method = contender->model->name,
+                   .paper = paper,
+                   .seconds_per_cell = INFINITY};
 
     for (size_t seed = 0; seed < N_SEEDS; seed++) {
         const pps_score *s = &score[seed * n];
         double percent = 100 * s->category[level];
-        mean += percent / N_SEEDS;
-        by_count += 100 * s->by_count[level] / N_SEEDS;
-        ratio += s->brightness / N_SEEDS;
-        seconds = fmin(seconds, s->seconds_per_cell);
+        r.ours += percent / N_SEEDS;
+        r.rms_rel += 100 * s->by_count[level] / N_SEEDS;
+        r.ratio += s->brightness / N_SEEDS;
+        r.seconds_per_cell = fmin(r.seconds_per_cell, s->seconds_per_cell);
         least = fmin(least, percent);
         most = fmax(most, percent);
     }
-    csv_text(&out->csv, number);
-    csv_text(&out->csv, row);
-    csv_text(&out->csv, contender->label);
-    csv_number(&out->csv, paper);
-    csv_number(&out->csv, mean);
-    csv_number(&out->csv, by_count);
-    csv_text(&out->csv, contender->model->name);
-    csv_number(&out->csv, ratio);
-    csv_number(&out->csv, (most - least) / 2);
-    csv_number(&out->csv, strcmp(number, "3") == 0 ? CSV_EMPTY : seconds);
-    return output_end_row(out, NULL, NULL);
+    r.spread = (most - least) / 2;
+    return r;
 }
 
 /* What the runs share. */
@@ -132,9 +127,13 @@ static int crown_of_table_3(table *t, output *out, const crown_row *crown) {
     for (int level = 0; level < PPS_SCORE_LEVELS; level++) {
         snprintf(row, sizeof row, "%s, %s meshes a category", crown->name,
                  level_names[level]);
-        for (size_t i = 0; i < t->n && rc == CLI_DONE; i++)
-            rc = write_score(out, "3", row, paper_figure(crown, t->contender[i].label),
-                             level, t->n, &t->contender[i], t->score + i);
+        for (size_t i = 0; i < t->n && rc == CLI_DONE; i++) {
+            table_row r =
+                summarize("3", row, paper_figure(crown, t->contender[i].label), level,
+                          t->n, &t->contender[i], t->score + i);
+            r.seconds_per_cell = CSV_EMPTY; /* the table is reproducible to the byte */
+            rc = table_write(out, &r);
+        }
     }
     return rc;
 }
@@ -142,9 +141,11 @@ static int crown_of_table_3(table *t, output *out, const crown_row *crown) {
 static int write_beside_cost(table *t, output *out, const char *row) {
     int rc = CLI_DONE;
 
-    for (size_t i = 0; i < t->n && rc == CLI_DONE; i++)
-        rc = write_score(out, "crowns", row, CSV_EMPTY, 0, t->n, &t->contender[i],
-                         t->score + i);
+    for (size_t i = 0; i < t->n && rc == CLI_DONE; i++) {
+        table_row r = summarize("crowns", row, CSV_EMPTY, 0, t->n, &t->contender[i],
+                                t->score + i);
+        rc = table_write(out, &r);
+    }
     return rc;
 }
 
@@ -268,11 +269,6 @@ static int run(const invocation *call, bool crowns_table) {
     return output_close(&out, rc);
 }
 
-int table_3(const invocation *call) {
-    return option_given(call, OPT_TREE_FILE)
-               ? cli_usage("--tree: '%.60s' is for `table crowns`",
-                           call->text[OPT_TREE_FILE])
-               : run(call, false);
-}
+int table_3(const invocation *call) { return run(call, false); }
 
 int table_crowns(const invocation *call) { return run(call, true); }

@@ -16,30 +16,9 @@
 #include <string.h>
 
 #include "cli.h"
-#include "output.h"
 #include "progress.h"
 #include "system.h"
 #include "values.h"
-
-/* What a row of either table says. */
-typedef struct {
-    const char *table, *row, *column, *method;
-    double paper, ours, relative, ratio, spread;
-} table_row;
-
-static int write_row(output *out, const table_row *r) {
-    csv_text(&out->csv, r->table);
-    csv_text(&out->csv, r->row);
-    csv_text(&out->csv, r->column);
-    csv_number(&out->csv, r->paper);
-    csv_number(&out->csv, r->ours);
-    csv_number(&out->csv, r->relative);
-    csv_text(&out->csv, r->method);
-    csv_number(&out->csv, r->ratio);
-    csv_number(&out->csv, r->spread);
-    csv_number(&out->csv, CSV_EMPTY);
-    return output_end_row(out, NULL, NULL);
-}
 
 /* ---- figure 7 ---- */
 
@@ -173,12 +152,15 @@ static pps_status measure_crown(figure *f, const pps_crown *plain, int seed,
 /* Means over the seeds, and half the range of the first number. */
 static table_row summarize(const char *crown, int view, int part, char *column,
                            size_t size, const pps_seen_difference *by) {
-    table_row row = {.table = "figure7", .row = crown, .method = "leaf"};
+    table_row row = {.table = "figure7",
+                     .row = crown,
+                     .method = "leaf",
+                     .seconds_per_cell = CSV_EMPTY};
     double least = INFINITY, most = -INFINITY;
 
     for (int i = 0; i < N_SEEDS; i++) {
         row.ours += 100 * by[i].over_top / N_SEEDS;
-        row.relative += 100 * by[i].relative / N_SEEDS;
+        row.rms_rel += 100 * by[i].relative / N_SEEDS;
         row.ratio += by[i].ratio / N_SEEDS;
         least = fmin(least, 100 * by[i].over_top);
         most = fmax(most, 100 * by[i].over_top);
@@ -198,7 +180,7 @@ static int write_crown(output *out, const char *name, const crown_result *result
             char column[40];
             table_row row = summarize(name, view, part, column, sizeof column,
                                       result->by[view][part]);
-            rc = write_row(out, &row);
+            rc = table_write(out, &row);
         }
     }
     return rc;
@@ -276,18 +258,24 @@ static pps_status fps_rows(output *out, const pps_scene *scene, int threads) {
     double start = system_seconds();
     pps_status status =
         att ? pps_leaf_attenuation(scene, &options, att) : PPS_ERR_MEMORY;
-    table_row row = {"fps",     "1 tree",  "trees prepared a second",
-                     "leaf",    CSV_EMPTY, CSV_EMPTY,
-                     CSV_EMPTY, CSV_EMPTY, CSV_EMPTY};
+    table_row row = {.table = "fps",
+                     .row = "1 tree",
+                     .column = "trees prepared a second",
+                     .method = "leaf",
+                     .paper = CSV_EMPTY,
+                     .rms_rel = CSV_EMPTY,
+                     .ratio = CSV_EMPTY,
+                     .spread = CSV_EMPTY,
+                     .seconds_per_cell = CSV_EMPTY};
 
     row.ours = 1 / (system_seconds() - start);
-    if (!status && write_row(out, &row) == CLI_DONE)
+    if (!status && table_write(out, &row) == CLI_DONE)
         status = pps_irradiance_create(scene, false, &light);
     for (size_t i = 0; i < sizeof lights / sizeof lights[0] && !status; i++) {
         row.column = lights[i].name;
         row.paper = lights[i].paper;
         status = time_light(scene, att, lights[i].sources, light, &row.ours);
-        if (!status && write_row(out, &row) != CLI_DONE)
+        if (!status && table_write(out, &row) != CLI_DONE)
             break;
     }
     pps_irradiance_free(light);

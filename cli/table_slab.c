@@ -12,7 +12,6 @@
 
 #include "cli.h"
 #include "compare.h"
-#include "output.h"
 
 enum { N_ALBEDOS = 5, N_ROWS = N_ALBEDOS + 1 /* and the total */ };
 
@@ -130,20 +129,21 @@ static void fill_column(const paper_table *table, const case_grid *grid,
     cells[N_ALBEDOS] = total;
 }
 
-static int write_row(output *out, const paper_table *table, size_t row,
-                     const paper_column *column, const pps_method *method,
-                     const cell *c) {
-    csv_text(&out->csv, table->number);
-    csv_text(&out->csv, row_names[row]);
-    csv_text(&out->csv, column->name);
-    csv_number(&out->csv, column->paper[row]);
-    csv_number(&out->csv, c->refusal ? CSV_EMPTY : c->rms_abs);
-    csv_number(&out->csv, c->refusal ? CSV_EMPTY : c->rms_rel);
-    csv_text(&out->csv, method->name);
-    csv_number(&out->csv, CSV_EMPTY);
-    csv_number(&out->csv, CSV_EMPTY);
-    csv_number(&out->csv, CSV_EMPTY);
-    return output_end_row(out, c->refused_by, c->refusal);
+static int write_cell(output *out, const paper_table *table, size_t row,
+                      const paper_column *column, const pps_method *method,
+                      const cell *c) {
+    return table_write(out, &(table_row){.table = table->number,
+                                         .row = row_names[row],
+                                         .column = column->name,
+                                         .method = method->name,
+                                         .paper = column->paper[row],
+                                         .ours = c->refusal ? CSV_EMPTY : c->rms_abs,
+                                         .rms_rel = c->refusal ? CSV_EMPTY : c->rms_rel,
+                                         .ratio = CSV_EMPTY,
+                                         .spread = CSV_EMPTY,
+                                         .seconds_per_cell = CSV_EMPTY,
+                                         .refused_by = c->refused_by,
+                                         .refusal = c->refusal});
 }
 
 static int write_table(const paper_table *table, const case_grid *grid, output *out,
@@ -155,8 +155,8 @@ static int write_table(const paper_table *table, const case_grid *grid, output *
             const paper_column *column = &table->columns[j];
             cell cells[N_ROWS];
             fill_column(table, grid, result, column, cells);
-            rc = write_row(out, table, row, column, grid->method[column->method],
-                           &cells[row]);
+            rc = write_cell(out, table, row, column, grid->method[column->method],
+                            &cells[row]);
         }
     }
     return rc;

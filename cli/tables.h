@@ -1,10 +1,22 @@
-/* The tables of `ppscat table`: each takes the command line and returns the exit code.
+/* The tables of `ppscat table`: each takes the command line, of which it was checked that
+ * its options are for this table, and returns the exit code.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPSCAT_CLI_TABLES_H
 #define PPSCAT_CLI_TABLES_H
 
 #include "options.h"
+#include "output.h"
+
+/* A row of any of them; the columns are described in columns.c. */
+typedef struct {
+    const char *table, *row, *column, *method;
+    double paper, ours, rms_rel, ratio, spread, seconds_per_cell; /* or CSV_EMPTY */
+    const pps_method *refused_by; /* where `refusal` is said */
+    const char *refusal;          /* static text; NULL: not refused */
+} table_row;
+
+int table_write(output *out, const table_row *row); /* cmd_table.c */
 
 int table_1(const invocation *call); /* table_slab.c */
 int table_2(const invocation *call);

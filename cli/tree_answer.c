@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "names.h"
 #include "progress.h"
 #include "system.h"
 
@@ -40,56 +41,6 @@ size_t tree_method_find(const char *name) {
 
 /* ---- what was asked ---- */
 
-/* The number of a name among n; false where there is none of it. */
-static bool find_name(const char *word, size_t length, size_t n,
-                      const char *const *names, size_t *out) {
-    for (*out = 0; *out < n; ++*out) {
-        if (strlen(names[*out]) == length && strncmp(word, names[*out], length) == 0)
-            return true;
-    }
-    return false;
-}
-
-static int refuse_name(option_id id, const char *word, size_t length, size_t n,
-                       const char *const *names) {
-    char all[512] = "", given[64];
-    size_t used = 0;
-    const char *closest;
-
-    snprintf(given, sizeof given, "%.*s", (int)(length < 60 ? length : 60), word);
-    for (size_t i = 0; i < n; i++)
-        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "",
-                                 names[i]);
-    closest = cli_closest(given, n, names);
-    return cli_usage("--%s: unknown name '%s'; %s%s%sallowed: %s",
-                     option_table[id].name, given, closest ? "did you mean '" : "",
-                     closest ? closest : "", closest ? "'? " : "", all);
-}
-
-enum { NAMES_MAX = 64 };
-
-/* The names of a list as numbers; each once. */
-static int read_names(const invocation *call, option_id id, size_t n,
-                      const char *const *names, size_t chosen[NAMES_MAX],
-                      size_t *n_chosen) {
-    const char *at = option_text(call, id);
-
-    for (*n_chosen = 0;; at++) {
-        size_t length = strcspn(at, ","), which;
-        if (!find_name(at, length, n, names, &which))
-            return refuse_name(id, at, length, n, names);
-        for (size_t i = 0; i < *n_chosen; i++) {
-            if (chosen[i] == which)
-                return cli_usage("--%s: '%s' is there twice; allowed: each name once",
-                                 option_table[id].name, names[which]);
-        }
-        chosen[(*n_chosen)++] = which;
-        at += length;
-        if (*at == '\0')
-            return CLI_DONE;
-    }
-}
-
 /* The G-factor is for those that take one; somebody must. */
 static int check_compensation(const invocation *call, const tree_asked *asked) {
     bool any = strcmp(option_text(call, OPT_COMPENSATE), "none") == 0;
@@ -102,31 +53,31 @@ static int check_compensation(const invocation *call, const tree_asked *asked) {
                            call->text[OPT_COMPENSATE], option_text(call, OPT_MODEL));
 }
 
+static const char *method_name(size_t i) { return tree_method_at(i).name; }
+
+static const char *component_name(size_t i) { return tree_components[i].name; }
+
 int tree_asked_read(const invocation *call, tree_asked *out) {
-    const char *methods[NAMES_MAX], *components[TREE_COMPONENTS];
-    size_t method[NAMES_MAX], component[NAMES_MAX];
-    int rc;
+    name_table methods = {"model", tree_method_count(), method_name};
+    name_table components = {"component", TREE_COMPONENTS, component_name};
+    name_list method, component;
+    int rc = names_read(call, OPT_MODEL, &methods, &method);
 
     *out = (tree_asked){0};
-    for (size_t i = 0; i < tree_method_count(); i++)
-        methods[i] = tree_method_at(i).name;
-    for (size_t i = 0; i < TREE_COMPONENTS; i++)
-        components[i] = tree_components[i].name;
-    rc = read_names(call, OPT_MODEL, tree_method_count(), methods, method,
-                    &out->n_methods);
     if (rc == CLI_DONE)
-        rc = read_names(call, OPT_COMPONENT, TREE_COMPONENTS, components, component,
-                        &out->n_components);
+        rc = names_read(call, OPT_COMPONENT, &components, &component);
     if (rc != CLI_DONE)
         return rc;
-    out->method = malloc(out->n_methods * sizeof *out->method);
-    out->component = malloc(out->n_components * sizeof *out->component);
+    out->method = malloc(method.n * sizeof *out->method);
+    out->component = malloc(component.n * sizeof *out->component);
     if (!out->method || !out->component)
         return cli_no_memory();
-    for (size_t i = 0; i < out->n_methods; i++)
-        out->method[i] = tree_method_at(method[i]);
-    for (size_t i = 0; i < out->n_components; i++)
-        out->component[i] = &tree_components[component[i]];
+    out->n_methods = method.n;
+    for (size_t i = 0; i < method.n; i++)
+        out->method[i] = tree_method_at(method.index[i]);
+    out->n_components = component.n;
+    for (size_t i = 0; i < component.n; i++)
+        out->component[i] = &tree_components[component.index[i]];
     return check_compensation(call, out);
 }
 
