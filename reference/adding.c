@@ -23,6 +23,7 @@
 #include "core/legendre.h"
 #include "core/method.h"
 #include "core/quadrature.h"
+#include "core/tolerance.h"
 #include "reference/layers.h"
 
 static const double PI = 3.14159265358979323846;
@@ -480,24 +481,6 @@ static pps_status answer(adding *a, const request *what, double accuracy,
                     &a->info);
 }
 
-/* The largest relative difference: radiances against max(value, 1e-3 of the largest),
- * fluxes against themselves. */
-static double difference(const request *what, const double *coarse,
-                         const double *fine) {
-    double largest = 0, worst = 0;
-    for (size_t i = 0; what->at && i < what->n; i++) {
-        largest = fmax(largest, fabs(fine[i]));
-    }
-    for (size_t i = 0; i < what->n; i++) {
-        double scale = fmax(fabs(fine[i]), 1e-3 * largest);
-        double error = fabs(fine[i] - coarse[i]);
-        if (!(error < 1e-290)) { /* a NaN counts */
-            worst = fmax(worst, isnan(error) ? HUGE_VAL : error / scale);
-        }
-    }
-    return worst;
-}
-
 /* Two runs, the second much finer, must agree; it is the answer. */
 static pps_status produce(adding *a, const request *what, double *value) {
     double *before = malloc((what->n + 1) * sizeof *before);
@@ -509,7 +492,9 @@ static pps_status produce(adding *a, const request *what, double *value) {
     do {
         accuracy *= FINER;
         status = status ? status : answer(a, what, accuracy, value);
-        a->info.error_estimate = status ? (double)NAN : difference(what, before, value);
+        a->info.error_estimate =
+            status ? (double)NAN
+                   : pps_tolerance_missed(what->at, what->n, before, value);
         memcpy(before, value, what->n * sizeof *before);
     } while (!status && a->info.error_estimate > a->tolerance && accuracy > 1e-13);
     free(before);

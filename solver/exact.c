@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/method.h"
+#include "core/tolerance.h"
 #include "solver/dom.h"
 
 static const int ladder[] = {12,  16,  24,  32,  48,  64,  96,
@@ -211,24 +212,6 @@ static pps_status rung_answer(exact *e, int index, int streams, double azimuth,
                     : rung_fluxes(e, index, streams, what, (pps_flux *)(void *)answer);
 }
 
-/* The largest relative difference: radiances against max(value, 1e-3 of the largest),
- * fluxes against themselves. */
-static double difference(const request *what, const double *coarse,
-                         const double *fine) {
-    double largest = 0, worst = 0;
-    for (size_t i = 0; what->at && i < what->n; i++) {
-        largest = fmax(largest, fabs(fine[i]));
-    }
-    for (size_t i = 0; i < what->n; i++) {
-        double scale = fmax(fabs(fine[i]), 1e-3 * largest);
-        double error = fabs(fine[i] - coarse[i]);
-        if (!(error < 1e-290)) { /* a NaN counts */
-            worst = fmax(worst, isnan(error) ? HUGE_VAL : error / scale);
-        }
-    }
-    return worst;
-}
-
 /* Where to enter the ladder. Fitted to where `exact` meets its tolerance over g 0..0.95
  * and thickness 0.01..inf (tests/test_auto.c shows that it does). */
 static int first_rung(const exact *e) {
@@ -266,8 +249,9 @@ static double disagreement(const request *what, double *const *kept, int newest,
                            int agreeing) {
     double worst = 0;
     for (int back = 1; back < agreeing; back++) {
-        worst = fmax(worst, difference(what, kept[(newest - back) % MOST_AGREEING],
-                                       kept[newest % MOST_AGREEING]));
+        worst = fmax(worst, pps_tolerance_missed(what->at, what->n,
+                                                 kept[(newest - back) % MOST_AGREEING],
+                                                 kept[newest % MOST_AGREEING]));
     }
     return worst;
 }

@@ -8,52 +8,16 @@
 #include <ppscat/tree/grow.h>
 #include <ppscat/tree/scene.h>
 
+#include "plants.h"
 #include "support/support.h"
 
 static const double PI = 3.14159265358979323846;
-
-/* A mesh of n squares of side 1, in the planes z = 0, 1, ..; material 0 is leaf and 1 wood.
- * Neighbours in a strip share vertices' places, not their numbers. */
-typedef struct {
-    double x, y, z;
-    uint32_t material;
-} square;
-
-static pps_mesh *squares(size_t n, const square *at) {
-    pps_mesh *mesh = calloc(1, sizeof *mesh);
-    mesh->n_vertices = 4 * n;
-    mesh->n_triangles = 2 * n;
-    mesh->n_materials = 2;
-    mesh->position = calloc(4 * n, sizeof *mesh->position);
-    mesh->triangle = calloc(2 * n, sizeof *mesh->triangle);
-    mesh->material_of = calloc(2 * n, sizeof *mesh->material_of);
-    mesh->material = calloc(2, sizeof *mesh->material);
-    for (int i = 0; i < 2; i++) {
-        mesh->material[i].name = calloc(8, 1);
-        mesh->material[i].leaf = i == 0;
-        mesh->material[i].texture = -1;
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        for (uint32_t c = 0; c < 4; c++) {
-            double *p = mesh->position[4 * i + c];
-            p[0] = at[i].x + (c == 1 || c == 2);
-            p[1] = at[i].y + (c >= 2);
-            p[2] = at[i].z;
-        }
-        uint32_t two[2][3] = {{4 * i, 4 * i + 1, 4 * i + 2},
-                              {4 * i, 4 * i + 2, 4 * i + 3}};
-        memcpy(mesh->triangle[2 * i], two, sizeof two);
-        mesh->material_of[2 * i] = mesh->material_of[2 * i + 1] = at[i].material;
-    }
-    return mesh;
-}
 
 static void triangles_that_share_an_edge_are_one_leaf(void **state) {
     (void)state;
     /* Wood between; two squares side by side; one that touches them in a corner. */
     square at[] = {{0, 0, 0, 0}, {5, 5, 0, 1}, {1, 0, 0, 0}, {2, 1, 0, 0}};
     pps_mesh *mesh = squares(4, at);
-    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
     assert_int_equal(mesh->n_leaves, 2);
     assert_int_equal(mesh->leaf[0].n_triangles, 4);
     assert_close(mesh->leaf[0].area, 2, 1e-15, 0);
@@ -96,7 +60,6 @@ static void foliage_in_one_piece_falls_into_triangles(void **state) {
         at[i] = (square){i, 0, 0, 0};
     }
     pps_mesh *mesh = squares(N, at);
-    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
     assert_int_equal(mesh->n_leaves, 1);
     pps_mesh_free(mesh);
     mesh = squares(N + 1, at);
@@ -123,22 +86,9 @@ static void bad_indices_are_refused(void **state) {
 /* A texture whose right half is clear: half of every square is there. */
 static void alpha_counts_in_the_leaf_area(void **state) {
     (void)state;
-    square at[] = {{0, 0, 0, 0}};
+    square at[] = {{0, 0, 0, LEAF}};
     pps_mesh *mesh = squares(1, at);
-    mesh->uv = calloc(4, sizeof *mesh->uv);
-    for (int c = 0; c < 4; c++) {
-        mesh->uv[c][0] = (float)mesh->position[c][0] * 0.999F;
-        mesh->uv[c][1] = (float)mesh->position[c][1] * 0.999F;
-    }
-    mesh->n_textures = 1;
-    mesh->texture = calloc(1, sizeof *mesh->texture);
-    mesh->texture[0] = (pps_texture){64, 64, calloc(4, 64 * 64)};
-    for (int i = 0; i < 64 * 64; i++) {
-        mesh->texture[0].rgba[4 * i + 3] = i % 64 < 32 ? 255 : 0;
-    }
-    mesh->material[0].texture = 0;
-    mesh->material[0].alpha_min = 0.5;
-    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
+    cut_right_half(mesh);
     assert_close(mesh->leaf[0].area, 0.5, 0.02, 0);
     pps_mesh_free(mesh);
 }
@@ -148,7 +98,6 @@ static void leaf_area_index_is_area_over_the_hull(void **state) {
     square at[] = {{0, 0, 0, 0}, {0, 0, 1, 0}, {1, 1, 2, 0}};
     pps_mesh *mesh = squares(3, at);
     pps_mesh_size size;
-    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
     pps_mesh_measure(mesh, &size);
     assert_close(size.leaf_area, 3, 1e-15, 0);
     assert_close(size.leaf_area_index, 1, 1e-15, 0); /* the hull has area 3 */
@@ -222,7 +171,6 @@ static void leaves_of_instances_are_placed_turned_and_scaled(void **state) {
     square at[] = {{0, 0, 0, 0}, {5, 5, 0, 0}};
     pps_mesh *mesh = squares(2, at);
     pps_scene *scene;
-    assert_int_equal(pps_mesh_finish(mesh), PPS_OK);
     assert_int_equal(pps_scene_single(mesh, 0.9, &scene), PPS_OK);
     scene->instance = realloc(scene->instance, 2 * sizeof *scene->instance);
     scene->n_instances = 2;
