@@ -88,10 +88,12 @@ static pps_status read_mesh(const invocation *call, pps_scene **out,
     return status ? status : pps_scene_of_mesh(mesh, out);
 }
 
-static bool is_scene_file(const char *path) {
+/* Else a scene's file, or the name of one that comes with the library. */
+static bool is_mesh(const char *path) {
     size_t length = strlen(path);
 
-    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+    return strpbrk(path, "./") &&
+           !(length > 5 && strcmp(path + length - 5, ".json") == 0);
 }
 
 int tree_scene_open(const invocation *call, pps_scene **out) {
@@ -101,13 +103,14 @@ int tree_scene_open(const invocation *call, pps_scene **out) {
 
     *out = NULL;
     if (!path)
-        return cli_usage("%s: which scene? allowed: a scene file (.json) or a mesh",
+        return cli_usage("%s: which scene? allowed: a scene file (.json), a mesh, or "
+                         "CHERRY16 and others that come with the program",
                          subcommand_table[call->subcommand].name);
-    if (is_scene_file(path) && option_given(call, OPT_LEAF))
+    if (!is_mesh(path) && option_given(call, OPT_LEAF))
         return cli_usage("--leaf: '%.60s' is for meshes; a scene file has its own",
                          call->text[OPT_LEAF]);
-    pps_status status = is_scene_file(path) ? pps_scene_read(path, out, &problem)
-                                            : read_mesh(call, out, &problem);
+    pps_status status = is_mesh(path) ? read_mesh(call, out, &problem)
+                                      : pps_scene_read(path, out, &problem);
     if (status == PPS_ERR_MEMORY)
         return cli_no_memory();
     if (status)

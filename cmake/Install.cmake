@@ -7,7 +7,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ppscat)
 set_target_properties(ppscat_tree PROPERTIES EXPORT_NAME tree)
 install(TARGETS ppscat ppscat_tree EXPORT ppscatTargets)
 install(DIRECTORY include/ppscat TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY data/scenes data/trees DESTINATION ${CMAKE_INSTALL_DATADIR}/ppscat)
+install(DIRECTORY data/species data/scenes data/trees DESTINATION ${CMAKE_INSTALL_DATADIR}/ppscat)
 install(EXPORT ppscatTargets NAMESPACE ppscat:: DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/ppscatConfig.cmake.in ppscatConfig.cmake

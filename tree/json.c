@@ -13,18 +13,11 @@
 #include "tree/path.h"
 #include "tree/problem.h"
 
-pps_status pps_json_load(const pps_json_file *file, pps_json *root) {
-    unsigned char *bytes;
-    size_t n;
+pps_status pps_json_parse(const pps_json_file *file, const char *text, size_t n,
+                          pps_json *root) {
     json_error_t error;
     *root = (pps_json){.file = file};
-    pps_status status = pps_path_load(file->path, &bytes, &n);
-    if (status) {
-        return pps_complain(file->problem, status, "%s: %s", file->path,
-                            status == PPS_ERR_FILE ? strerror(errno) : "out of memory");
-    }
-    root->value = json_loadb((const char *)bytes, n, JSON_REJECT_DUPLICATES, &error);
-    free(bytes);
+    root->value = json_loadb(text, n, JSON_REJECT_DUPLICATES, &error);
     if (root->value) {
         return PPS_OK;
     }
@@ -34,6 +27,19 @@ pps_status pps_json_load(const pps_json_file *file, pps_json *root) {
     }
     return pps_complain(file->problem, PPS_ERR_FORMAT, "%s:%d:%d: %s", file->path,
                         error.line, error.column, error.text);
+}
+
+pps_status pps_json_load(const pps_json_file *file, pps_json *root) {
+    unsigned char *bytes;
+    size_t n;
+    pps_status status = pps_path_load(file->path, &bytes, &n);
+    if (status) {
+        return pps_complain(file->problem, status, "%s: %s", file->path,
+                            status == PPS_ERR_FILE ? strerror(errno) : "out of memory");
+    }
+    status = pps_json_parse(file, (const char *)bytes, n, root);
+    free(bytes);
+    return status;
 }
 
 pps_json pps_json_key(const pps_json *object, const char *key) {

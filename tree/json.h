@@ -27,6 +27,10 @@ typedef struct pps_json {
  * the problem is FILE:LINE:COLUMN: why. Keys that come twice are refused. */
 pps_status pps_json_load(const pps_json_file *file, pps_json *root);
 
+/* The same of n letters, which file->path names in messages. */
+pps_status pps_json_parse(const pps_json_file *file, const char *text, size_t n,
+                          pps_json *root);
+
 pps_json pps_json_key(const pps_json *object, const char *key);
 pps_json pps_json_element(const pps_json *array, size_t index);
 

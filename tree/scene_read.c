@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tree/builtin.h"
 #include "tree/path.h"
 #include "tree/problem.h"
 #include "tree/sun.h"
@@ -213,10 +214,13 @@ static pps_status read_document(const pps_json *root, pps_scene *scene) {
     return status ? status : pps_scene_index(scene);
 }
 
-static pps_status read_json(const char *path, pps_scene **out, pps_problem *problem) {
+/* text: that of a scene that comes with the library; NULL: a file's. */
+static pps_status read_json(const char *path, const char *text, pps_scene **out,
+                            pps_problem *problem) {
     pps_json_file file = {path, problem};
     pps_json root;
-    pps_status status = pps_json_load(&file, &root);
+    pps_status status = text ? pps_json_parse(&file, text, strlen(text), &root)
+                             : pps_json_load(&file, &root);
     if (status) {
         return status;
     }
@@ -231,18 +235,26 @@ static pps_status read_json(const char *path, pps_scene **out, pps_problem *prob
     return PPS_OK;
 }
 
-pps_status pps_scene_read(const char *path, pps_scene **out, pps_problem *problem) {
+static pps_status read_mesh(const char *path, pps_scene **out, pps_problem *problem) {
     pps_mesh *mesh;
-    *out = NULL;
+    pps_status status = pps_mesh_read(path, NULL, &mesh, problem);
+    return status ? status : pps_scene_of_mesh(mesh, out);
+}
+
+pps_status pps_scene_read(const char *name, pps_scene **out, pps_problem *problem) {
+    bool file = strpbrk(name, "./");
+    const char *text = file ? NULL : pps_builtin_find(pps_builtin_scenes, name);
     pps_status status;
-    if (pps_path_ends(path, ".json")) {
-        status = read_json(path, out, problem);
+    *out = NULL;
+    if (text || pps_path_ends(name, ".json")) {
+        status = read_json(name, text, out, problem);
+    } else if (file) {
+        status = read_mesh(name, out, problem);
     } else {
-        status = pps_mesh_read(path, NULL, &mesh, problem);
-        status = status ? status : pps_scene_of_mesh(mesh, out);
+        return pps_builtin_missing(pps_builtin_scenes, "scene", name, problem);
     }
     if (status == PPS_ERR_MEMORY) {
-        pps_complain(problem, status, "%s: out of memory", path);
+        pps_complain(problem, status, "%s: out of memory", name);
     }
     return status;
 }

@@ -11,14 +11,7 @@
 
 #include <jansson.h>
 
-/* The species of data/species, embedded by the build: name, text. */
-typedef struct {
-    const char *name, *text;
-} builtin;
-static const builtin BUILTIN[] = {
-#include "builtin_species.inc"
-};
-enum { N_BUILTIN = sizeof BUILTIN / sizeof *BUILTIN };
+#include "tree/builtin.h"
 
 /* ---- numbers by pointer ---- */
 
@@ -271,22 +264,6 @@ static bool is_file(const char *name) {
     return strchr(name, '/') || (n > 5 && strcmp(name + n - 5, ".json") == 0);
 }
 
-static pps_status no_such_species(const char *name, pps_problem *problem) {
-    if (problem) {
-        size_t at = (size_t)snprintf(problem->text, sizeof problem->text,
-                                     "no species '%.60s'; there are", name);
-        for (size_t i = 0; i < N_BUILTIN && at < sizeof problem->text; i++) {
-            at += (size_t)snprintf(problem->text + at, sizeof problem->text - at,
-                                   "%s %s", i ? "," : "", BUILTIN[i].name);
-        }
-        if (at < sizeof problem->text) {
-            snprintf(problem->text + at, sizeof problem->text - at,
-                     ", and files ending in .json");
-        }
-    }
-    return PPS_ERR_ARGUMENT;
-}
-
 /* json is NULL when it could not be read, and error says why. */
 static pps_status from_json(json_t *json, const json_error_t *error, reader *r,
                             pps_species *out) {
@@ -312,11 +289,9 @@ pps_status pps_species_read(const char *name, pps_species *out, pps_problem *pro
         json_t *json = json_load_file(name, JSON_REJECT_DUPLICATES, &error);
         return from_json(json, &error, &r, out);
     }
-    for (size_t i = 0; i < N_BUILTIN; i++) {
-        if (strcmp(BUILTIN[i].name, name) == 0) {
-            json_t *json = json_loads(BUILTIN[i].text, JSON_REJECT_DUPLICATES, &error);
-            return from_json(json, &error, &r, out);
-        }
+    const char *text = pps_builtin_find(pps_builtin_species, name);
+    if (!text) {
+        return pps_builtin_missing(pps_builtin_species, "species", name, problem);
     }
-    return no_such_species(name, problem);
+    return from_json(json_loads(text, JSON_REJECT_DUPLICATES, &error), &error, &r, out);
 }

@@ -281,6 +281,22 @@ static void problems_of_plants_are_told_with_their_place(void **state) {
     assert_string_equal(problem.text, "nowhere/s.json: No such file or directory");
 }
 
+/* Those that come with the library are read by name, the same as their files. */
+static void scenes_that_come_along_have_names(void **state) {
+    (void)state;
+    pps_scene *named = read_scene("CHERRY16");
+    pps_scene *file = read_scene(PPS_DATA_DIR "/scenes/CHERRY16.json");
+    assert_int_equal(named->n_leaves, file->n_leaves);
+    assert_memory_equal(named->sun.to, file->sun.to, sizeof named->sun.to);
+    pps_scene_free(named);
+    pps_scene_free(file);
+    assert_int_equal(pps_scene_read("CHERRY17", &named, &problem), PPS_ERR_ARGUMENT);
+    assert_null(named);
+    assert_string_equal(problem.text,
+                        "no scene 'CHERRY17'; there are CHERRY16, CHERRY64, MAPLE16, "
+                        "MAPLE64, and files ending in .json");
+}
+
 /* ---- what is read ---- */
 
 static void the_least_scene_is_one_plant_and_light(void **state) {
@@ -541,6 +557,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_problem_is_told_in_its_own_words),
         cmocka_unit_test(problems_of_plants_are_told_with_their_place),
+        cmocka_unit_test(scenes_that_come_along_have_names),
         cmocka_unit_test(the_least_scene_is_one_plant_and_light),
         cmocka_unit_test(every_key_is_read),
         cmocka_unit_test(meshes_are_found_beside_the_scene),

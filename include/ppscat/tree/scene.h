@@ -67,9 +67,10 @@ typedef struct pps_scene {
 } pps_scene;
 
 /* Read a scene (.json, docs/tree-files.md), or a bare mesh, which gets the light of
- * pps_scene_of_mesh. FILE, FORMAT (the problem names the line, or the JSON pointer),
- * MEMORY; ARGUMENT: a bare mesh without leaves. */
-PPS_API pps_status pps_scene_read(const char *path, pps_scene **out,
+ * pps_scene_of_mesh. A name without dot and slash is one of those that come with the
+ * library: CHERRY16, .. FILE, FORMAT (the problem names the line, or the JSON pointer),
+ * MEMORY; ARGUMENT: a bare mesh without leaves, or no scene of that name. */
+PPS_API pps_status pps_scene_read(const char *name, pps_scene **out,
                                   pps_problem *problem);
 
 /* One mesh, which the scene then owns, in the light of a clear day: bands red, green and

@@ -1,5 +1,5 @@
-# Species files as rows of C: {"name", "text"}, with OUT and FILES given.
-set(rows "/* Made by embed_species.cmake. */\n")
+# JSON files as rows of C: {"name", "text"}, with OUT and FILES given.
+set(rows "/* Made by embed_texts.cmake. */\n")
 foreach(file ${FILES})
     get_filename_component(name ${file} NAME_WE)
     file(READ ${file} text)
