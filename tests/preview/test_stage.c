@@ -8,29 +8,11 @@
 
 #include <ppscat/tree/grow.h>
 
-#include "preview/headless.h"
 #include "preview/snapshot.h"
 #include "support/support.h"
+#include "tests/preview/context.h"
 
 enum { WIDTH = 240, HEIGHT = 200 };
-
-static headless *context;
-
-static int open_context(void **state) {
-    (void)state;
-    pps_problem problem = {""};
-    context = headless_open(&problem);
-    if (!context) {
-        print_message("%s\n", problem.text);
-    }
-    return context ? 0 : -1;
-}
-
-static int close_context(void **state) {
-    (void)state;
-    headless_close(context);
-    return 0;
-}
 
 /* Three crowns of flat leaves, turned and scaled, over a ground. */
 static pps_scene *three_crowns(void) {
@@ -52,7 +34,7 @@ static preview_options options_for(const char *model, unsigned sources) {
                          .height = HEIGHT,
                          .samples = 1,
                          .view = {-50, 15},
-                         .stage = {.sources = sources, .map_texels = 512}};
+                         .stage = {.sources = sources, .map_texels = 256}};
     assert_true(options_model(model, &o.stage));
     o.stage.compensate = o.stage.way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;
     return o;
@@ -218,5 +200,5 @@ int main(void) {
         cmocka_unit_test(sky_and_shadow_are_where_rays_find_them),
         cmocka_unit_test(a_moved_sun_gives_the_frame_of_a_fresh_one),
     };
-    return cmocka_run_group_tests(tests, open_context, close_context);
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
