@@ -9,16 +9,23 @@ uniform usamplerBuffer shade;         // first of each instance, then the lists
 uniform bool by_count;                // light is e^-count; else surfaces are opaque
 uniform int map_texels;
 
+// Layer k of eight; 0 before the first.
+float layer_of(vec4 low, vec4 high, int k) {
+    return dot(low, vec4(equal(ivec4(k), ivec4(0, 1, 2, 3)))) +
+           dot(high, vec4(equal(ivec4(k), ivec4(4, 5, 6, 7))));
+}
+
 // Surfaces before a place in a texel and behind it, without `own` of them.
 vec2 counts_about(ivec3 texel, vec2 span, float along, float own) {
     float first = -span.x;
     vec4 low = texelFetch(near_counts, texel, 0), high = texelFetch(far_counts, texel, 0);
     float upto = 0;
-    if (along > first) {
-        float layers = span.y > first ? (along - first) / (span.y - first) * 8 : 8;
+    if (along > first && span.y <= first) {
+        upto = max(low.x - own, 0);
+    } else if (along > first) {
+        float layers = (along - first) / (span.y - first) * 8;
         int k = int(min(layers, 7));
-        float count = k < 4 ? low[k] : high[k - 4];
-        float before = k == 0 ? 0 : k < 5 ? low[k - 1] : high[k - 5];
+        float count = layer_of(low, high, k), before = layer_of(low, high, k - 1);
         upto = before + min(layers - float(k), 1) * max(count - before - own, 0);
     }
     return vec2(upto, max(high.w - own - upto, 0));
