@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "preview/frame.h"
-#include "preview/headless.h"
+#include "preview/offscreen.h"
 #include "preview/stage_open.h"
 
 enum { ROUND = 8 };
@@ -82,18 +82,5 @@ static int measure(stage *s, const preview_options *options, pps_problem *proble
 }
 
 int bench_run(const preview_options *options, pps_problem *problem) {
-    pps_scene *scene = scene_for(options, problem);
-    if (!scene) {
-        return EXIT_USAGE;
-    }
-    headless *context = headless_open(problem);
-    if (!context) {
-        pps_scene_free(scene);
-        return EXIT_FAILED;
-    }
-    stage *s = stage_open(scene, &options->stage, problem);
-    int rc = s ? measure(s, options, problem) : EXIT_FAILED;
-    stage_close(s);
-    headless_close(context);
-    return rc;
+    return offscreen_run(options, measure, problem);
 }

@@ -1,4 +1,5 @@
-/* Frame buffers of half floats.
+/* Frame buffers: of half floats, where there are many samples; else of single precision, so
+ * that pixels can be compared with what the library finds.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/frame.h"
@@ -23,9 +24,10 @@ bool frame_create(int width, int height, int samples, frame *out,
     *out = (frame){.width = width, .height = height};
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     samples = samples < most ? samples : most;
+    GLenum format = samples > 1 ? GL_RGBA16F : GL_RGBA32F;
     glGenFramebuffers(1, &out->drawn);
     glBindFramebuffer(GL_FRAMEBUFFER, out->drawn);
-    out->color = make_buffer(samples, GL_RGBA16F, width, height, GL_COLOR_ATTACHMENT0);
+    out->color = make_buffer(samples, format, width, height, GL_COLOR_ATTACHMENT0);
     out->depth =
         make_buffer(samples, GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_ATTACHMENT);
     bool good = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
@@ -33,7 +35,7 @@ bool frame_create(int width, int height, int samples, frame *out,
     glBindFramebuffer(GL_FRAMEBUFFER, out->shown);
     glGenTextures(1, &out->texture);
     glBindTexture(GL_TEXTURE_2D, out->texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT,
+    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_FLOAT,
                  NULL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -31,18 +31,22 @@ static const char *part_text(const char *name) {
     return after ? after + sizeof version - 1 : text;
 }
 
-/* `name` is a shader's, or "PART+SHADER". */
+/* `name` is a shader's, or "PART+PART+SHADER". */
 static GLuint compile(GLenum kind, const char *name, pps_problem *problem) {
-    char first[40] = "";
-    const char *plus = strchr(name, '+');
-    if (plus) {
-        snprintf(first, sizeof first, "%.*s", (int)(plus - name), name);
+    enum { PARTS_MOST = 6 };
+    const char *text[PARTS_MOST + 1] = {"#version 330 core\n"};
+    GLsizei n = 1;
+    for (const char *rest = name; rest && n <= PARTS_MOST; n++) {
+        char part[40];
+        const char *plus = strchr(rest, '+');
+        snprintf(part, sizeof part, "%.*s",
+                 plus ? (int)(plus - rest) : (int)strlen(rest), rest);
+        text[n] = part_text(part);
+        rest = plus ? plus + 1 : NULL;
     }
-    const char *text[] = {"#version 330 core\n", plus ? part_text(first) : "",
-                          part_text(plus ? plus + 1 : name)};
     GLuint shader = glCreateShader(kind);
     GLint good = 0;
-    glShaderSource(shader, 3, text, NULL);
+    glShaderSource(shader, n, text, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     if (!good) {

@@ -11,8 +11,8 @@
 
 #include <ppscat/tree/mesh.h>
 
-/* A program of two shaders by name ("map_vert", "map_span_frag"), or by the names of a
- * part and a shader ("sun+plant_frag"); 0: the problem says what the driver said. */
+/* A program of two shaders by name ("map_vert", "map_span_frag"), or by the names of
+ * parts and a shader ("sun+spp+plant_frag"); 0: the problem says what the driver said. */
 GLuint gl_program(const char *vertex, const char *fragment, pps_problem *problem);
 
 /* Uniforms by name; a name that the driver dropped is skipped. */

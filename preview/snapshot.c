@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "preview/frame.h"
-#include "preview/headless.h"
-#include "preview/stage_open.h"
+#include "preview/offscreen.h"
 
 pps_picture *snapshot_draw(stage *s, const preview_options *options,
                            pps_problem *problem) {
@@ -51,18 +50,5 @@ static int draw_and_write(stage *s, const preview_options *options,
 }
 
 int snapshot_run(const preview_options *options, pps_problem *problem) {
-    pps_scene *scene = scene_for(options, problem);
-    if (!scene) {
-        return EXIT_USAGE;
-    }
-    headless *context = headless_open(problem);
-    if (!context) {
-        pps_scene_free(scene);
-        return EXIT_FAILED;
-    }
-    stage *s = stage_open(scene, &options->stage, problem);
-    int rc = s ? draw_and_write(s, options, problem) : EXIT_FAILED;
-    stage_close(s);
-    headless_close(context);
-    return rc;
+    return offscreen_run(options, draw_and_write, problem);
 }

@@ -29,6 +29,10 @@ bool stage_cells_known(const stage *s) {
 
 bool stage_counts(const stage *s) { return s->system && s->system->by_count; }
 
+bool stage_by_point(const stage *s) {
+    return s->options.by_point && s->system && s->system->slab_kappa > 0;
+}
+
 static bool fail(pps_status status, const char *what, pps_problem *problem) {
     if (status) {
         snprintf(problem->text, sizeof problem->text, "%s: %s", what,
@@ -86,6 +90,7 @@ static bool prepare(stage *s, pps_problem *problem) {
     }
     pps_system_options options = {
         .way = s->options.way == STAGE_GRID ? PPS_SYSTEM_GRID : PPS_SYSTEM_INSTANCES,
+        .by_point = s->options.by_point,
         .threads = s->options.threads};
     options.model = s->options.way == STAGE_GRID ? s->options.model : NULL;
     options.light.compensate = s->options.compensate;
@@ -175,7 +180,7 @@ static pps_status load_meshes(stage *s) {
 }
 
 static bool open_all(stage *s, pps_problem *problem) {
-    s->plant_program = gl_program("plant_vert", "sun+plant_frag", problem);
+    s->plant_program = gl_program("plant_vert", "sun+spp+leaf_light+plant_frag", problem);
     s->backdrop_program =
         s->plant_program ? gl_program("backdrop_vert", "sun+backdrop_frag", problem)
                          : 0;

@@ -202,6 +202,26 @@ static void set_common(const stage *s, GLuint program, const pps_camera *camera,
               s->options.sources & PPS_SUN);
 }
 
+/* The closed form, for leaves of a prototype. Its albedo is kept 1e-7 away from 1, where
+ * single precision would lose more than that moves. */
+static void set_slab(const stage *s, GLuint program, size_t prototype) {
+    double lambda[3];
+    bool on = stage_by_point(s) && s->options.sources & PPS_SUN_INDIRECT;
+    set_bands(s->scene, program, "sun_scattered", s->scene->sun.irradiance, on);
+    if (!on) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int b = stage_band(s->scene, k);
+        const pps_leaf_optics *o = &s->scene->prototype[prototype].optics;
+        double absorbed = b < 0 ? 1 : 1 - pps_leaf_albedo(o, b);
+        lambda[k] = s->system->slab_m * sqrt(fmax(absorbed, 1e-7));
+    }
+    gl_set_float(program, "slab_m", s->system->slab_m);
+    gl_set_float(program, "slab_kappa", s->system->slab_kappa);
+    gl_set_vec3(program, "slab_lambda", lambda);
+}
+
 static void set_optics(const stage *s, GLuint program, size_t prototype) {
     static const char *const name[2][2] = {{"reflectance[0]", "reflectance[1]"},
                                            {"transmittance[0]", "transmittance[1]"}};
@@ -217,6 +237,7 @@ static void set_optics(const stage *s, GLuint program, size_t prototype) {
 static void draw_prototype(const stage *s, GLuint program, size_t p) {
     const gpu_mesh *mesh = &s->mesh[p];
     set_optics(s, program, p);
+    set_slab(s, program, p);
     glBindVertexArray(mesh->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, s->instances[p]);
     describe_instances();

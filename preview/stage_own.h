@@ -24,6 +24,7 @@ enum {
 
 bool stage_cells_known(const stage *s); /* light is by cells, not by leaf */
 bool stage_counts(const stage *s);      /* light is e^-count */
+bool stage_by_point(const stage *s);    /* the sun's scattered light is by pixels */
 
 /* Tables of what does not move, of cells' light, and of the sun. MEMORY. */
 pps_status stage_fill_static(stage *s);

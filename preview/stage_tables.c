@@ -19,8 +19,8 @@ pps_status stage_fill_static(stage *s) {
     return PPS_OK;
 }
 
-/* Scattered light of the sources asked for: (flux, diffuse) of three bands a cell. */
-static void put_cell(const stage *s, size_t c, float *out) {
+/* Scattered light of some sources: (flux, diffuse) of three bands a cell. */
+static void put_cell(const stage *s, size_t c, unsigned sources, float *out) {
     static const unsigned kind[] = {PPS_SKY_INDIRECT, PPS_SUN_INDIRECT};
     for (int color = 0; color < 3; color++) {
         int b = stage_band(s->scene, color);
@@ -28,7 +28,7 @@ static void put_cell(const stage *s, size_t c, float *out) {
         float *texel = out + 4 * color;
         memset(texel, 0, 4 * sizeof *texel);
         for (int k = 0; k < 2; k++) {
-            if (b >= 0 && (s->options.sources & kind[k])) {
+            if (b >= 0 && (sources & kind[k])) {
                 for (size_t i = 0; i < 3; i++) {
                     texel[i] += s->system->flux[k][3 * at + i];
                 }
@@ -40,17 +40,19 @@ static void put_cell(const stage *s, size_t c, float *out) {
 
 /* The mean over cells with light of a quarter of the fluence, and of the sky's share:
  * what wood is taken to be in. */
-static void find_around(stage *s, const float *scattered) {
+static void find_around(stage *s) {
     double sum[3] = {0, 0, 0}, open = 0, n = 0;
     size_t directions = (size_t)s->system->directions.n;
     for (size_t c = 0; c < s->system->n_cells; c++) {
         double seen = 0;
+        float scattered[12];
         for (size_t j = 0; j < directions; j++) {
             seen += (double)s->system->sky[c * directions + j] / (double)directions;
         }
         if (seen > 0) {
+            put_cell(s, c, s->options.sources, scattered);
             for (size_t b = 0; b < 3; b++) {
-                sum[b] += (double)scattered[12 * c + 4 * b + 3] / 4;
+                sum[b] += (double)scattered[4 * b + 3] / 4;
             }
             open += seen;
             n++;
@@ -69,18 +71,21 @@ static void find_around(stage *s, const float *scattered) {
 static pps_status fill_cells(stage *s) {
     size_t n = s->system->n_cells, directions = (size_t)s->system->directions.n;
     size_t stride = (directions + 3) / 4 * 4;
-    float *scattered = calloc(12 * n + 1, sizeof *scattered);
+    unsigned sources =
+        s->options.sources & ~(unsigned)(stage_by_point(s) ? PPS_SUN_INDIRECT : 0);
+    float *scattered = calloc(16 * n + 1, sizeof *scattered);
     float *sky = calloc(stride * n + 1, sizeof *sky);
     pps_status status = scattered && sky ? PPS_OK : PPS_ERR_MEMORY;
     for (size_t c = 0; c < n && !status; c++) {
-        put_cell(s, c, scattered + 12 * c);
+        put_cell(s, c, sources, scattered + 16 * c);
+        scattered[16 * c + 12] = s->system->g[c];
         memcpy(sky + stride * c, s->system->sky + directions * c,
                directions * sizeof *sky);
     }
     if (!status) {
-        gl_table_fill(&s->scattered, GL_RGBA32F, scattered, 12 * n * sizeof *scattered);
+        gl_table_fill(&s->scattered, GL_RGBA32F, scattered, 16 * n * sizeof *scattered);
         gl_table_fill(&s->sky_shares, GL_RGBA32F, sky, stride * n * sizeof *sky);
-        find_around(s, scattered);
+        find_around(s);
     }
     free(scattered);
     free(sky);

@@ -71,15 +71,6 @@ int pps_distant_lights(const pps_lit_scene *lit, pps_distant *lights) {
     return n;
 }
 
-static void prototype_albedo(const pps_leaf_optics *optics, size_t n_bands,
-                             double *share) {
-    for (size_t b = 0; b < n_bands; b++) {
-        share[b] = (optics->reflectance[0][b] + optics->transmittance[0][b] +
-                    optics->reflectance[1][b] + optics->transmittance[1][b]) /
-                   2;
-    }
-}
-
 /* Sums of area and of area times albedo; the last row is the whole scene's. */
 static void sum_albedos(const pps_scene *scene, const pps_cells *cells, size_t width,
                         double *sum) {
@@ -87,7 +78,9 @@ static void sum_albedos(const pps_scene *scene, const pps_cells *cells, size_t w
     for (size_t k = 0, i = 0; k < scene->n_instances; k++) {
         const pps_prototype *p = &scene->prototype[scene->instance[k].prototype];
         double share[PPS_BANDS_MAX], square = pow(scene->instance[k].scale, 2);
-        prototype_albedo(&p->optics, width - 1, share);
+        for (size_t b = 0; b < width - 1; b++) {
+            share[b] = pps_leaf_albedo(&p->optics, (int)b);
+        }
         for (size_t l = 0; l < p->mesh->n_leaves; l++, i++) {
             double area = p->mesh->leaf[l].area * square,
                    *at = sum + cells->cell_of[i] * width;

@@ -26,6 +26,7 @@ struct pps_lattice {
     int n_directions, threads;
     bool ground, isotropic;
     double gap, kappa_given, excess[PPS_BANDS_MAX];
+    pps_leaf_optics *optics; /* of the prototypes, as albedo and excess were found */
     uint32_t *leaf_cell;
     float *leaf_depth;          /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
@@ -55,6 +56,7 @@ void pps_lattice_free(pps_lattice *l) {
     if (l) {
         pps_sweeper_clear(&l->sweeper);
         pps_anderson_clear(&l->anderson);
+        free(l->optics);
         free(l->leaf_cell);
         free(l->depth);
         free(l->kappa);
@@ -176,25 +178,17 @@ static pps_status make_state(pps_lattice *l) {
     return pps_anderson_init(&l->anderson, l->n_state, n);
 }
 
-static pps_status set_leaf_cells(pps_lattice *l, const pps_scene *scene,
-                                 const pps_cells *cells) {
-    float *albedo;
-    pps_status status = pps_cell_albedos(scene, cells, &albedo);
+static void set_leaf_cells(pps_lattice *l, const pps_cells *cells) {
     double face = 2 * cells->size * cells->size;
-    for (size_t c = 0, i = 0; !status && c < l->n_cells; c++) {
+    for (size_t c = 0, i = 0; c < l->n_cells; c++) {
         if (!(cells->area[c] > 0)) {
             continue;
         }
         l->leaf_cell[i] = (uint32_t)c;
         l->leaf_depth[i] = (float)(cells->area[c] / face);
         l->depth[c] += l->leaf_depth[i];
-        for (int b = 0; b < scene->n_bands; b++) {
-            l->albedo[i][b] = albedo[c * (size_t)scene->n_bands + (size_t)b];
-        }
         i++;
     }
-    free(albedo);
-    return status;
 }
 
 /* How much of each direction's light reaches the ground. */
@@ -351,6 +345,36 @@ static double reflected_excess(const pps_scene *scene, int band) {
     return sum > 0 ? excess / sum : 0;
 }
 
+/* What leaves do with light, unless it is known already. */
+static pps_status set_optics(pps_lattice *l, const pps_scene *scene,
+                             const pps_cells *cells) {
+    size_t n = scene->n_prototypes, bands = (size_t)scene->n_bands;
+    bool same = l->optics;
+    for (size_t p = 0; p < n && same; p++) {
+        same =
+            memcmp(&l->optics[p], &scene->prototype[p].optics, sizeof *l->optics) == 0;
+    }
+    if (same) {
+        return PPS_OK;
+    }
+    float *albedo = NULL;
+    l->optics = l->optics ? l->optics : calloc(n, sizeof *l->optics);
+    if (!l->optics || pps_cell_albedos(scene, cells, &albedo)) {
+        return PPS_ERR_MEMORY;
+    }
+    for (size_t p = 0; p < n; p++) {
+        l->optics[p] = scene->prototype[p].optics;
+    }
+    for (size_t b = 0; b < bands; b++) {
+        l->excess[b] = reflected_excess(scene, (int)b);
+        for (size_t i = 0; i < l->n_leaf_cells; i++) {
+            l->albedo[i][b] = albedo[l->leaf_cell[i] * bands + b];
+        }
+    }
+    free(albedo);
+    return PPS_OK;
+}
+
 static void count_cells(pps_lattice *l, const pps_scene *scene,
                         const pps_cells *cells) {
     l->n_cells = cells->n_cells;
@@ -372,9 +396,6 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     }
     count_cells(l, scene, cells);
     l->kappa_given = kappa;
-    for (int b = 0; b < scene->n_bands; b++) {
-        l->excess[b] = reflected_excess(scene, b);
-    }
     l->threads = pps_thread_count(threads) > 1 ? 2 : 1;
     pps_status status = allocate(l);
     if (!status) {
@@ -382,7 +403,8 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
     }
     if (!status) {
         set_wood(l, scene, cells);
-        status = set_leaf_cells(l, scene, cells);
+        set_leaf_cells(l, cells);
+        status = set_optics(l, scene, cells);
     }
     if (!status) {
         status = measure_escape(l, cells, kappa);
@@ -600,8 +622,11 @@ pps_status pps_lattice_solve(pps_lattice *l, const pps_lit_scene *lit, double to
     for (int b = 0; b < lit->scene->n_bands; b++) {
         reflectance[b] = (float)lit->scene->ground.reflectance[b];
     }
+    pps_status status = set_optics(l, lit->scene, lit->cells);
     set_direct(l, lit);
-    pps_status status = l->ground ? light_ground(l, lit, &far) : PPS_OK;
+    if (!status && l->ground) {
+        status = light_ground(l, lit, &far);
+    }
     if (!status) {
         memset(l->source, 0, l->n_cells * sizeof(pps_bands));
         status = iterate(l, &reflectance, far, tolerance, &field->sweeps);

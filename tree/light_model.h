@@ -8,6 +8,8 @@
 
 #include <ppscat/tree/field.h>
 
+#include "tree/slab_light.h"
+
 /* A light to solve for; checked, options and sources with their defaults. */
 typedef struct pps_lit_scene {
     const pps_scene *scene;
@@ -18,6 +20,7 @@ typedef struct pps_lit_scene {
 struct pps_light_model_ops {
     /* Depths and direct light from mean counts, as the paper; else from visibilities. */
     bool counts;
+    pps_slab_closure slab; /* of those that count: how a place in the slab is lit */
     /* Fill diffuse, flux and g_factor of the field; the rest is there. NULL: the model
      * does not use cells and has `leaves`. */
     pps_status (*solve)(const pps_lit_scene *lit, pps_light_field *field);

@@ -248,24 +248,24 @@ static pps_status solve_consistent(const pps_lit_scene *lit, pps_light_field *fi
 
 #define PAPER "SPP (2013)"
 #define OURS "docs/theory.md section 9"
-#define ROW(id, text, says, from, counted, g, function)                                \
-    static const struct pps_light_model_ops ops_##id = {.counts = (counted),           \
-                                                        .solve = function};            \
+#define ROW(id, text, says, from, counted, closure, g, function)                       \
+    static const struct pps_light_model_ops ops_##id = {                               \
+        .counts = (counted), .slab = (closure), .solve = function};                    \
     const pps_light_model pps_light_##id = {.name = text,                              \
                                             .summary = says,                           \
                                             .source = from,                            \
                                             .sources = PPS_ALL_LIGHT,                  \
                                             .compensates = (g),                        \
                                             .ops = &ops_##id};
-ROW(ss, "ss", "direct light alone", PAPER, true, true, solve_ss)
-ROW(spp, "spp", "simplified plane-parallel model, kappa = 1", PAPER, true, true,
+ROW(ss, "ss", "direct light alone", PAPER, true, PPS_SLAB_DARK, true, solve_ss)
+ROW(spp, "spp", "simplified plane-parallel model, kappa = 1", PAPER, true, PPS_SLAB_SPP, true,
     solve_spp)
 ROW(spp_printed, "spp-printed", "the same with Eq. 20 as printed, kappa = 1/T", PAPER,
-    true, true, solve_printed)
-ROW(hemispheric, "hemispheric", "SPP's hemispheres with mean cosine 1/2", OURS, true,
+    true, PPS_SLAB_SPP_PRINTED, true, solve_printed)
+ROW(hemispheric, "hemispheric", "SPP's hemispheres with mean cosine 1/2", OURS, true, PPS_SLAB_HEMISPHERIC,
     true, solve_hemispheric)
 ROW(march_g, "march-g", "the slab's light times G, marched along real paths", OURS,
-    false, true, solve_march_g)
+    false, PPS_SLAB_DARK, true, solve_march_g)
 ROW(self_consistent, "self-consistent",
-    "the slab's light scaled so that marching gives it back", OURS, false, false,
+    "the slab's light scaled so that marching gives it back", OURS, false, PPS_SLAB_DARK, false,
     solve_consistent)

@@ -306,7 +306,10 @@ static double count_down_to(const pps_opacity_map *map, size_t texel, double alo
     if (!(along > first)) { /* also where there is nothing: first is infinite */
         return 0;
     }
-    double layers = last > first ? (along - first) / (last - first) * LAYERS : LAYERS;
+    if (!(last > first)) { /* all in one place, and with it `own` */
+        return fmax((double)count[0] - own, 0);
+    }
+    double layers = (along - first) / (last - first) * LAYERS;
     int k = layers < LAYERS ? (int)layers : LAYERS - 1;
     double before = k > 0 ? (double)count[k - 1] : 0;
     double here = fmax((double)count[k] - before - own, 0);

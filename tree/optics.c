@@ -63,3 +63,11 @@ void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics) {
         }
     }
 }
+
+double pps_leaf_albedo(const pps_leaf_optics *optics, int band) {
+    return (optics->reflectance[PPS_FRONT][band] +
+            optics->transmittance[PPS_FRONT][band] +
+            optics->reflectance[PPS_BACK][band] +
+            optics->transmittance[PPS_BACK][band]) /
+           2;
+}

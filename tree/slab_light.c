@@ -8,6 +8,14 @@
 
 static const double CONSERVATIVE = 1e-12, RESONANCE = 1e-6;
 
+double pps_slab_m(pps_slab_closure closure) {
+    return closure == PPS_SLAB_HEMISPHERIC ? 2 : 1;
+}
+
+double pps_slab_kappa(pps_slab_closure closure) {
+    return closure == PPS_SLAB_DARK ? 0 : closure == PPS_SLAB_SPP_PRINTED ? 2 : 1;
+}
+
 /* lambda away from 1, where e^(-lambda z) and e^(-z) are one function. With m = 1 that is
  * albedo 0 alone, where their difference is the answer. */
 static double off_resonance(double m, double lambda) {
@@ -20,8 +28,7 @@ void pps_slab_light_init(pps_slab_light *light, pps_slab_closure closure, double
     if (closure == PPS_SLAB_DARK || !(albedo > 0)) {
         return;
     }
-    double m = closure == PPS_SLAB_HEMISPHERIC ? 2 : 1;
-    double kappa = closure == PPS_SLAB_SPP_PRINTED ? 2 : 1;
+    double m = pps_slab_m(closure), kappa = pps_slab_kappa(closure);
     double lambda = off_resonance(m, m * sqrt(fmax(1 - albedo, CONSERVATIVE)));
     double r = lambda / m, a = 1 - r * r; /* the albedo that belongs to lambda */
     double c = m == 1 ? -1 : -m * m * a / ((1 - lambda) * (1 + lambda));

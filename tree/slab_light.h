@@ -24,6 +24,10 @@ typedef enum {
     PPS_SLAB_HEMISPHERIC
 } pps_slab_closure;
 
+/* Of a closure: m, and what multiplies the scattered light (0: there is none). */
+double pps_slab_m(pps_slab_closure closure);
+double pps_slab_kappa(pps_slab_closure closure);
+
 /* sum(z) = a e^(-lambda z) + b e^(-lambda (w - z)) + c e^(-z) */
 typedef struct pps_slab_light {
     double m, lambda, w, a, b, c;

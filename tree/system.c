@@ -153,6 +153,9 @@ pps_status pps_system_create(const pps_scene *scene, const pps_system_options *o
     if (!status) {
         status = steps_of(own)->create(own);
         own->system.by_count = own->counts;
+        bool by_point = own->options.by_point && own->counts;
+        own->system.slab_m = pps_slab_m(own->slab);
+        own->system.slab_kappa = by_point ? pps_slab_kappa(own->slab) : 0;
     }
     if (status) {
         pps_system_free(&own->system);
@@ -238,90 +241,161 @@ pps_status pps_system_light_sun(pps_system *system) {
 
 /* ---- leaves ---- */
 
-/* What a face of normal n has: the sun's share of light, [direction] of the sky's parts
- * as irradiance, and what is scattered. */
+/* The system, and the parts of the sky as irradiance, [direction]. */
 typedef struct {
     const pps_system_own *own;
     unsigned sources;
     double part[SYSTEM_DIRECTIONS_MAX][PPS_BANDS_MAX];
 } shader;
 
-static double sun_share(const shader *s, size_t instance, const double point[3],
-                        const double normal[3]) {
-    if (!(s->sources & PPS_SUN)) {
-        return 0;
-    }
-    pps_sun_look look = pps_system_look_at_sun(s->own, instance, point, normal);
-    return s->own->counts ? exp(-look.depth) : look.visible;
-}
+/* A place on a leaf. */
+typedef struct {
+    size_t leaf, instance;
+    double point[3], normal[3];
+} place;
 
-/* Scattered light of the kinds asked for: of both faces, and more of the front. */
-static void scattered(const shader *s, size_t at, const double n[3], double *even,
-                      double *odd) {
+/* Light of the cells that is scattered, of the kinds asked for: of both faces, and more of
+ * the front. */
+static void scattered_in_cell(const shader *s, const place *at, bool sun, size_t b,
+                              double *even, double *odd) {
     static const unsigned kind[] = {PPS_SKY_INDIRECT, PPS_SUN_INDIRECT};
+    const pps_system *system = &s->own->system;
+    size_t c = system->cell_of[at->leaf] * (size_t)system->scene->n_bands + b;
     *even = *odd = 0;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < (sun ? 2 : 1); k++) {
         if (s->sources & kind[k]) {
-            const float *flux = s->own->system.flux[k] + 3 * at;
-            *even += (double)s->own->system.diffuse[k][at] / 4;
-            *odd += (n[0] * (double)flux[0] + n[1] * (double)flux[1] +
-                     n[2] * (double)flux[2]) /
+            const float *flux = system->flux[k] + 3 * c;
+            *even += (double)system->diffuse[k][c] / 4;
+            *odd += (at->normal[0] * (double)flux[0] + at->normal[1] * (double)flux[1] +
+                     at->normal[2] * (double)flux[2]) /
                     2;
         }
     }
 }
 
-static void shade_leaf(const shader *s, size_t i, double *front, double *back) {
+/* The sun's, by the depths at the place itself and the cell's G. */
+static void scattered_here(const shader *s, const place *at, const pps_sun_look *look,
+                           size_t b, double *even, double *odd) {
     const pps_system *system = &s->own->system;
     const pps_scene *scene = system->scene;
-    pps_scene_leaf leaf;
-    pps_scene_leaf_at(scene, i, &leaf);
-    size_t c = system->cell_of[i], bands = (size_t)scene->n_bands,
-           n = (size_t)system->directions.n;
-    double facing = vec_dot(leaf.normal, scene->sun.to);
-    double sun = facing * sun_share(s, leaf.instance, leaf.center, leaf.normal);
-    for (size_t b = 0; b < bands; b++) {
-        double even, odd;
-        scattered(s, c * bands + b, leaf.normal, &even, &odd);
-        front[b] = scene->sun.irradiance[b] * fmax(sun, 0) + fmax(even + odd, 0);
-        back[b] = scene->sun.irradiance[b] * fmax(-sun, 0) + fmax(even - odd, 0);
+    const pps_prototype *prototype =
+        &scene->prototype[scene->instance[at->instance].prototype];
+    double e = scene->sun.irradiance[b] * (double)system->g[system->cell_of[at->leaf]];
+    pps_slab_light light;
+    pps_slab_light_init(&light, s->own->slab,
+                        pps_leaf_albedo(&prototype->optics, (int)b),
+                        look->depth + look->behind);
+    *even += e * pps_slab_light_sum(&light, look->depth) / 4;
+    *odd += e * pps_slab_light_net(&light, look->depth) / 4 *
+            vec_dot(at->normal, scene->sun.to);
+}
+
+/* Irradiance of both faces by the sun, and by all that is scattered. */
+static void shade_by_sun(const shader *s, const place *at, double *front,
+                         double *back) {
+    const pps_system *system = &s->own->system;
+    const pps_sun *sun = &system->scene->sun;
+    bool here = system->slab_kappa > 0 && s->sources & PPS_SUN_INDIRECT;
+    pps_sun_look look = {0, 0, 1, 1};
+    if (here || s->sources & PPS_SUN) {
+        look = pps_system_look_at_sun(s->own, at->instance, at->point, at->normal);
     }
-    for (size_t j = 0; j < n && (s->sources & PPS_SKY); j++) {
-        double through = vec_dot(leaf.normal, system->directions.to[j]) *
+    double share = s->sources & PPS_SUN ? vec_dot(at->normal, sun->to) : 0;
+    share *= s->own->counts ? exp(-look.depth) : look.visible;
+    for (size_t b = 0; b < (size_t)system->scene->n_bands; b++) {
+        double even, odd;
+        scattered_in_cell(s, at, !here, b, &even, &odd);
+        if (here) {
+            scattered_here(s, at, &look, b, &even, &odd);
+        }
+        front[b] = sun->irradiance[b] * fmax(share, 0) + fmax(even + odd, 0);
+        back[b] = sun->irradiance[b] * fmax(-share, 0) + fmax(even - odd, 0);
+    }
+}
+
+static void add_sky(const shader *s, const place *at, double *front, double *back) {
+    const pps_system *system = &s->own->system;
+    size_t n = (size_t)system->directions.n, c = system->cell_of[at->leaf];
+    for (size_t j = 0; j < n; j++) {
+        double through = vec_dot(at->normal, system->directions.to[j]) *
                          (double)system->sky[c * n + j];
-        for (size_t b = 0; b < bands; b++) {
+        for (size_t b = 0; b < (size_t)system->scene->n_bands; b++) {
             front[b] += fmax(through, 0) * s->part[j][b];
             back[b] += fmax(-through, 0) * s->part[j][b];
         }
     }
 }
 
-pps_status pps_system_shade(pps_system *system, unsigned sources,
-                            pps_irradiance **out) {
-    pps_system_own *own = (pps_system_own *)system;
+static void shade_place(const shader *s, const place *at, double *front, double *back) {
+    shade_by_sun(s, at, front, back);
+    if (s->sources & PPS_SKY) {
+        add_sky(s, at, front, back);
+    }
+}
+
+static void shade_leaf(const shader *s, size_t i, double *front, double *back) {
+    pps_scene_leaf leaf;
+    pps_scene_leaf_at(s->own->system.scene, i, &leaf);
+    place at = {.leaf = i, .instance = leaf.instance};
+    memcpy(at.point, leaf.center, sizeof at.point);
+    memcpy(at.normal, leaf.normal, sizeof at.normal);
+    shade_place(s, &at, front, back);
+}
+
+/* ARGUMENT: a step is missing, or there are no such sources. */
+static pps_status shader_init(const pps_system *system, unsigned sources, shader *s) {
+    const pps_system_own *own = (const pps_system_own *)system;
     const pps_scene *scene = system->scene;
-    *out = NULL;
     if (!own->done[STEP_SKY] || !own->done[STEP_SUN] || sources > PPS_ALL_LIGHT) {
         return PPS_ERR_ARGUMENT;
     }
-    double start = omp_get_wtime();
-    shader s = {.own = own, .sources = sources ? sources : PPS_ALL_LIGHT};
+    *s = (shader){.own = own, .sources = sources ? sources : PPS_ALL_LIGHT};
     for (int j = 0; j < system->directions.n; j++) {
         double z = system->directions.to[j][2];
         for (int b = 0; b < scene->n_bands && !(z < 0 && scene->ground.present); b++) {
-            s.part[j][b] =
+            s->part[j][b] =
                 4 * PI / system->directions.n * pps_sky_radiance(&scene->sky, b, z);
         }
     }
-    pps_status status = pps_irradiance_create(scene, false, out);
+    return PPS_OK;
+}
+
+pps_status pps_system_shade(pps_system *system, unsigned sources,
+                            pps_irradiance **out) {
+    const pps_scene *scene = system->scene;
+    shader s;
+    *out = NULL;
+    double start = omp_get_wtime();
+    pps_status status = shader_init(system, sources, &s);
+    if (!status) {
+        status = pps_irradiance_create(scene, false, out);
+    }
     if (status) {
         return status;
     }
-#pragma omp parallel for num_threads(own->threads) schedule(static)
+#pragma omp parallel for num_threads(s.own->threads) schedule(static)
     for (size_t i = 0; i < scene->n_leaves; i++) {
         size_t at = i * (size_t)scene->n_bands;
         shade_leaf(&s, i, (*out)->front + at, (*out)->back + at);
     }
     system->seconds[STEP_SHADE] = omp_get_wtime() - start;
     return PPS_OK;
+}
+
+pps_status pps_system_shade_point(const pps_system *system, unsigned sources, size_t i,
+                                  const double point[3], const double normal[3],
+                                  double *front, double *back) {
+    shader s;
+    pps_scene_leaf leaf;
+    pps_status status = i < system->scene->n_leaves
+                            ? shader_init(system, sources, &s)
+                            : PPS_ERR_ARGUMENT;
+    if (!status) {
+        pps_scene_leaf_at(system->scene, i, &leaf);
+        place at = {.leaf = i, .instance = leaf.instance};
+        memcpy(at.point, point, sizeof at.point);
+        memcpy(at.normal, normal, sizeof at.normal);
+        shade_place(&s, &at, front, back);
+    }
+    return status;
 }

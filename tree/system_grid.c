@@ -41,6 +41,7 @@ static pps_status create(pps_system_own *own) {
         return status ? status : PPS_ERR_UNSUPPORTED;
     }
     own->counts = model->ops->counts;
+    own->slab = model->ops->slab;
     grid *g = calloc(1, sizeof *g);
     own->way = g;
     if (!g) {
@@ -107,6 +108,7 @@ static pps_status construct_cells(pps_system_own *own) {
     }
     if (!status) {
         system->n_cells = g->cells->n_cells;
+        system->cell = g->cells->size;
         memcpy(system->cell_of, g->cells->cell_of,
                system->scene->n_leaves * sizeof *system->cell_of);
     }
@@ -343,6 +345,7 @@ static pps_status light_sun(pps_system_own *own) {
     pps_status status = solve(own, SYSTEM_SUN, PPS_SUN | PPS_SUN_INDIRECT);
     if (!status) {
         own->system.sun = g->field[SYSTEM_SUN]->sun;
+        own->system.g = g->field[SYSTEM_SUN]->g_factor;
     }
     return status;
 }

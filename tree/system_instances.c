@@ -31,7 +31,6 @@ typedef struct {
     size_t n_cells;
     bool *leafy;       /* [cell] */
     uint32_t *cell_of; /* [leaf] */
-    double albedo[PPS_BANDS_MAX];
     pps_opacity_map **map; /* [direction] */
 } coarse;
 
@@ -40,7 +39,7 @@ typedef struct {
     size_t *first;                             /* [instance] its first cell */
     int seen_as[TURNS][SYSTEM_DIRECTIONS_MAX]; /* direction j, by a plant turned k */
     float *depth, *g;                          /* [c * n_directions + j] */
-    float *diffuse[2], *flux[2], *sky, *sun;
+    float *diffuse[2], *flux[2], *sky, *sun, *sun_g;
 } instances;
 
 /* ---- create ---- */
@@ -87,6 +86,7 @@ static pps_status create(pps_system_own *own) {
         return PPS_ERR_MEMORY;
     }
     own->counts = true;
+    own->slab = own->options.kappa_printed ? PPS_SLAB_SPP_PRINTED : PPS_SLAB_SPP;
     way->prototype = calloc(scene->n_prototypes, sizeof *way->prototype);
     way->first = calloc(scene->n_instances + 1, sizeof *way->first);
     if (!way->prototype || !way->first) {
@@ -110,12 +110,13 @@ static void forget_cells(instances *way) {
     free(way->g);
     free(way->sky);
     free(way->sun);
+    free(way->sun_g);
     for (int k = 0; k < 2; k++) {
         free(way->diffuse[k]);
         free(way->flux[k]);
         way->diffuse[k] = way->flux[k] = NULL;
     }
-    way->depth = way->g = way->sky = way->sun = NULL;
+    way->depth = way->g = way->sky = way->sun = way->sun_g = NULL;
 }
 
 static void free_way(pps_system_own *own) {
@@ -160,10 +161,9 @@ static uint32_t cell_at(const coarse *at, const double point[3]) {
     return (uint32_t)((k[2] * (size_t)at->n[1] + k[1]) * (size_t)at->n[0] + k[0]);
 }
 
-static pps_status construct_coarse(const pps_prototype *prototype, int n_bands,
-                                   int across, coarse *at) {
+static pps_status construct_coarse(const pps_prototype *prototype, int across,
+                                   coarse *at) {
     const pps_mesh *mesh = prototype->mesh;
-    const pps_leaf_optics *o = &prototype->optics;
     lay_grid(mesh, across, at);
     at->leafy = calloc(at->n_cells, sizeof *at->leafy);
     at->cell_of = calloc(mesh->n_leaves + 1, sizeof *at->cell_of);
@@ -173,11 +173,6 @@ static pps_status construct_coarse(const pps_prototype *prototype, int n_bands,
     for (size_t l = 0; l < mesh->n_leaves; l++) {
         at->cell_of[l] = cell_at(at, mesh->leaf[l].center);
         at->leafy[at->cell_of[l]] = true;
-    }
-    for (int b = 0; b < n_bands; b++) {
-        at->albedo[b] = (o->reflectance[0][b] + o->transmittance[0][b] +
-                         o->reflectance[1][b] + o->transmittance[1][b]) /
-                        2;
     }
     return PPS_OK;
 }
@@ -191,7 +186,8 @@ static pps_status reserve(pps_system_own *own) {
     way->g = calloc(n * directions, sizeof *way->g);
     way->sky = calloc(n * directions, sizeof *way->sky);
     way->sun = calloc(n, sizeof *way->sun);
-    bool all = way->depth && way->g && way->sky && way->sun;
+    way->sun_g = calloc(n, sizeof *way->sun_g);
+    bool all = way->depth && way->g && way->sky && way->sun && way->sun_g;
     for (int k = 0; k < 2; k++) {
         own->system.diffuse[k] = way->diffuse[k] =
             calloc(n * bands, sizeof *way->diffuse[k]);
@@ -201,6 +197,7 @@ static pps_status reserve(pps_system_own *own) {
     }
     own->system.sky = way->sky;
     own->system.sun = way->sun;
+    own->system.g = way->sun_g;
     return all ? PPS_OK : PPS_ERR_MEMORY;
 }
 
@@ -211,13 +208,14 @@ static pps_status construct_cells(pps_system_own *own) {
     int across = own->options.across ? own->options.across : DEFAULT_ACROSS;
     for (size_t p = 0; p < scene->n_prototypes; p++) {
         forget_coarse(&way->prototype[p], system->directions.n);
-        pps_status status = construct_coarse(&scene->prototype[p], scene->n_bands,
-                                             across, &way->prototype[p]);
+        pps_status status =
+            construct_coarse(&scene->prototype[p], across, &way->prototype[p]);
         if (status) {
             return status;
         }
     }
     system->n_cells = 0;
+    system->cell = INFINITY;
     for (size_t i = 0; i < scene->n_instances; i++) {
         int p = scene->instance[i].prototype;
         way->first[i] = system->n_cells;
@@ -226,6 +224,8 @@ static pps_status construct_cells(pps_system_own *own) {
                 (uint32_t)system->n_cells + way->prototype[p].cell_of[l];
         }
         system->n_cells += way->prototype[p].n_cells;
+        system->cell =
+            fmin(system->cell, way->prototype[p].size * scene->instance[i].scale);
     }
     way->first[scene->n_instances] = system->n_cells;
     return reserve(own);
@@ -377,16 +377,16 @@ static pps_status find_g(pps_system_own *own) {
 /* ---- steps 4 and 5 ---- */
 
 /* Add the scattered light of one distant light of irradiance e[band] in a cell. */
-static void add_light(pps_system_own *own, int which, size_t c, const double *albedo,
+static void add_light(pps_system_own *own, int which, size_t c,
+                      const pps_prototype *prototype,
                       const double to[3], double d, double w, double g,
                       const double *e) {
     instances *way = own->way;
     size_t bands = (size_t)own->system.scene->n_bands;
-    pps_slab_closure closure =
-        own->options.kappa_printed ? PPS_SLAB_SPP_PRINTED : PPS_SLAB_SPP;
     for (size_t b = 0; b < bands; b++) {
         pps_slab_light light;
-        pps_slab_light_init(&light, closure, albedo[b], w);
+        pps_slab_light_init(&light, own->slab, pps_leaf_albedo(&prototype->optics, (int)b),
+                            w);
         float net = (float)(e[b] * g * pps_slab_light_net(&light, d) / 2);
         way->diffuse[which][c * bands + b] +=
             (float)(e[b] * g * pps_slab_light_sum(&light, d));
@@ -408,12 +408,13 @@ static void light_instance_by_sky(pps_system_own *own, size_t i, int j,
     const pps_scene *scene = own->system.scene;
     instances *way = own->way;
     size_t n = (size_t)own->system.directions.n;
-    const double *albedo = way->prototype[scene->instance[i].prototype].albedo;
+    const pps_prototype *prototype =
+        &scene->prototype[scene->instance[i].prototype];
     for (size_t c = way->first[i]; c < way->first[i + 1]; c++) {
         if (leafy(way, scene, i, c)) {
             size_t at = c * n + (size_t)j;
             double d = (double)way->depth[at], behind = (double)way->depth[at ^ 1];
-            add_light(own, SYSTEM_SKY, c, albedo, own->system.directions.to[j], d,
+            add_light(own, SYSTEM_SKY, c, prototype, own->system.directions.to[j], d,
                       d + behind, (double)way->g[at], e);
         }
     }
@@ -449,7 +450,8 @@ static pps_status light_sun(pps_system_own *own) {
     clear(own, SYSTEM_SUN);
 #pragma omp parallel for num_threads(own->threads) schedule(dynamic)
     for (size_t i = 0; i < scene->n_instances; i++) {
-        const double *albedo = way->prototype[scene->instance[i].prototype].albedo;
+        const pps_prototype *prototype =
+            &scene->prototype[scene->instance[i].prototype];
         for (size_t c = way->first[i]; c < way->first[i + 1]; c++) {
             if (!leafy(way, scene, i, c)) {
                 continue;
@@ -465,7 +467,8 @@ static pps_status light_sun(pps_system_own *own) {
             double d = look.depth, w = look.depth + look.behind;
             double g = g_of_cell(own, c, sun->to, d, w);
             way->sun[c] = (float)exp(-d);
-            add_light(own, SYSTEM_SUN, c, albedo, sun->to, d, w, g, sun->irradiance);
+            way->sun_g[c] = (float)g;
+            add_light(own, SYSTEM_SUN, c, prototype, sun->to, d, w, g, sun->irradiance);
         }
     }
     return PPS_OK;

@@ -8,6 +8,7 @@
 
 #include "tree/casters.h"
 #include "tree/opacity_look.h"
+#include "tree/slab_light.h"
 
 enum { SYSTEM_SKY, SYSTEM_SUN, SYSTEM_DIRECTIONS_MAX = 64 };
 
@@ -24,6 +25,7 @@ typedef struct pps_system_own {
     int threads;
     pps_opacity_map **sun_map; /* [pose] */
     bool counts;               /* light is e^-depth */
+    pps_slab_closure slab;     /* of models that count */
     void *way;                 /* the state of the way taken */
 } pps_system_own;
 

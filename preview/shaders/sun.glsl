@@ -9,21 +9,32 @@ uniform usamplerBuffer shade;         // first of each instance, then the lists
 uniform bool by_count;                // light is e^-count; else surfaces are opaque
 uniform int map_texels;
 
-float count_down_to(ivec3 texel, vec2 span, float along, float own) {
-    float first = -span.x;
-    if (along <= first)
-        return 0.0;
-    float layers = span.y > first ? (along - first) / (span.y - first) * 8 : 8;
-    int k = int(min(layers, 7));
-    vec4 low = texelFetch(near_counts, texel, 0), high = texelFetch(far_counts, texel, 0);
-    float count = k < 4 ? low[k] : high[k - 4];
-    float before = k == 0 ? 0 : k < 5 ? low[k - 1] : high[k - 5];
-    return before + min(layers - float(k), 1) * max(count - before - own, 0);
+// Layer k of eight; 0 before the first.
+float layer_of(vec4 low, vec4 high, int k) {
+    return dot(low, vec4(equal(ivec4(k), ivec4(0, 1, 2, 3)))) +
+           dot(high, vec4(equal(ivec4(k), ivec4(4, 5, 6, 7))));
 }
 
-// Counts, or the share of texels that are hidden, of one caster. normal: of the surface of
-// its own that the point is on, which goes on as a plane; 0: of none. tree/opacity_map.c.
-float look(int caster, vec3 point, vec3 normal) {
+// Surfaces before a place in a texel and behind it, without `own` of them.
+vec2 counts_about(ivec3 texel, vec2 span, float along, float own) {
+    float first = -span.x;
+    vec4 low = texelFetch(near_counts, texel, 0), high = texelFetch(far_counts, texel, 0);
+    float upto = 0;
+    if (along > first && span.y <= first) {
+        upto = max(low.x - own, 0);
+    } else if (along > first) {
+        float layers = (along - first) / (span.y - first) * 8;
+        int k = int(min(layers, 7));
+        float count = layer_of(low, high, k), before = layer_of(low, high, k - 1);
+        upto = before + min(layers - float(k), 1) * max(count - before - own, 0);
+    }
+    return vec2(upto, max(high.w - own - upto, 0));
+}
+
+// Counts before the point and behind it, or (in .x) the share of texels that are hidden, of
+// one caster. normal: of the surface of its own that the point is on, which goes on as a
+// plane; 0: of none. tree/opacity_map.c.
+vec2 look(int caster, vec3 point, vec3 normal) {
     vec4 place = texelFetch(casters, 2 * caster), turn = texelFetch(casters, 2 * caster + 1);
     vec3 off = (point - place.xyz) * place.w;
     vec4 at = vec4(turn.x * off.x + turn.y * off.y, turn.x * off.y - turn.y * off.x, off.z, 1);
@@ -31,9 +42,10 @@ float look(int caster, vec3 point, vec3 normal) {
     vec2 texels = vec2(dot(texelFetch(poses, 3 * pose), at),
                        dot(texelFetch(poses, 3 * pose + 1), at));
     if (any(lessThan(texels, vec2(-1))) || any(greaterThan(texels, vec2(map_texels))))
-        return 0.0;
+        return vec2(0);
     vec4 axis = texelFetch(poses, 3 * pose + 2);
-    float middle = dot(axis.xyz, at.xyz), slack = 0, sum = 0;
+    float middle = dot(axis.xyz, at.xyz), slack = 0;
+    vec2 sum = vec2(0);
     vec2 slope = vec2(0);
     bool itself = normal != vec3(0);
     if (itself) {
@@ -57,25 +69,33 @@ float look(int caster, vec3 point, vec3 normal) {
             if (by_count) {
                 bool own = itself && along > -span.x - slack && along < span.y + slack;
                 sum += share.x * share.y *
-                       count_down_to(ivec3(t, pose), span, along, own ? 1 : 0);
+                       counts_about(ivec3(t, pose), span, along, own ? 1 : 0);
             } else if (along > -span.x + slack) {
-                sum += share.x * share.y;
+                sum.x += share.x * share.y;
             }
         }
     }
     return sum;
 }
 
-// The share of the sun that comes to a point of an instance (or, list n_instances, of the
-// ground), on a surface of this normal of the instance (0: on none).
-float sun_share(int list, vec3 point, vec3 normal) {
+// All casters of a list (of an instance; number n_instances, of the ground) about a point on
+// a surface of this normal of the instance (0: on none). By counts: their sums before and
+// behind; else the share of the light that comes, in .x.
+vec2 sun_met(int list, vec3 point, vec3 normal) {
     uint first = texelFetch(shade, list).x, end = texelFetch(shade, list + 1).x;
-    float light = 1, count = 0;
+    float light = 1;
+    vec2 count = vec2(0);
     for (uint k = first; k < end && (by_count || light > 0.004); k++) {
         int caster = int(texelFetch(shade, int(k)).x);
-        float met = look(caster, point, caster == list ? normal : vec3(0));
-        light *= 1 - met;
+        vec2 met = look(caster, point, caster == list ? normal : vec3(0));
+        light *= 1 - met.x;
         count += met;
     }
-    return by_count ? exp(-count) : max(light, 0);
+    return by_count ? count : vec2(max(light, 0), 0);
+}
+
+float sun_share(vec2 met) { return by_count ? exp(-met.x) : met.x; }
+
+float sun_share(int list, vec3 point, vec3 normal) {
+    return sun_share(sun_met(list, point, normal));
 }

@@ -9,28 +9,10 @@
 #include <ppscat/tree/grow.h>
 
 #include "preview/gpu_map.h"
-#include "preview/headless.h"
 #include "support/support.h"
+#include "tests/preview/context.h"
 
 enum { LAYERS = PPS_OPACITY_LAYERS };
-
-static headless *context;
-
-static int open_context(void **state) {
-    (void)state;
-    pps_problem problem = {""};
-    context = headless_open(&problem);
-    if (!context) {
-        print_message("%s\n", problem.text);
-    }
-    return context ? 0 : -1;
-}
-
-static int close_context(void **state) {
-    (void)state;
-    headless_close(context);
-    return 0;
-}
 
 typedef struct {
     size_t covered;      /* texels that either map covers */
@@ -122,5 +104,5 @@ int main(void) {
         cmocka_unit_test(a_grown_tree_has_the_same_maps),
         cmocka_unit_test(cut_out_leaves_have_the_same_maps),
     };
-    return cmocka_run_group_tests(tests, open_context, close_context);
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

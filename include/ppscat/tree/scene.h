@@ -84,6 +84,9 @@ PPS_API pps_status pps_scene_of_mesh(pps_mesh *mesh, pps_scene **out);
  * green ones. */
 PPS_API void pps_mesh_optics(const pps_mesh *mesh, pps_leaf_optics *optics);
 
+/* What leaves scatter of light in a band, mean of both faces. */
+PPS_API double pps_leaf_albedo(const pps_leaf_optics *optics, int band);
+
 /* Unit vector towards the sun; x is east, y north, z up. Degrees, north and east positive;
  * time as ISO 8601 with its zone, "2026-06-21T12:00:00+02:00", years 1900 to 2100. Good to
  * 0.02 degree, without refraction (Meeus 1998, chapter 25). ARGUMENT. */

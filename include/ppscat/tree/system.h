@@ -39,6 +39,8 @@ typedef struct pps_system_options {
     const pps_light_model *model; /* of GRID: NULL is the table's first */
     pps_light_options light; /* compensation (of INSTANCES: NONE is plain SPP), kappa */
     bool kappa_printed;      /* INSTANCES: Eq. 20 as printed */
+    bool by_point; /* models by counts: scattered light of the sun by the depths at the
+                      very point (SPP section 5.3), not by those of its cell */
     int across; /* cells across the longest side of a plant's leaves; 0: 16 for GRID,
                        10 for INSTANCES */
     int texels; /* of the maps towards the directions; 0: 64 for INSTANCES,
@@ -66,12 +68,16 @@ typedef struct pps_system {
     bool
         by_count; /* the sun comes to leaves as e^-count; else leaves are opaque to it */
     size_t n_cells;
+    double cell;              /* side of the smallest cell, metres */
     uint32_t *cell_of;        /* [scene leaf] */
     size_t n_poses, *pose_of; /* [instance] */
     pps_pose *pose;
     const float *diffuse[2], *flux[2]; /* [c * n_bands + b], [3 * (...) + axis] */
     const float *sky;                  /* [c * n_directions + j] share of its light */
     const float *sun; /* [c] share of the sun's light, of the cell as a whole */
+    const float *g;   /* [c] G-factor of the sun's scattered light */
+    /* By points: the slab's closure, its scattered light times kappa; 0: by cells. */
+    double slab_m, slab_kappa;
     /* Instances that may stand in the sun of instance i: caster[list[k]] for k from
      * first[i] to first[i + 1] - 1. A caster is an instance and where it stands. */
     size_t n_casters;
@@ -99,6 +105,13 @@ PPS_API pps_status pps_system_light_sun(pps_system *system);
  * (0: all). ARGUMENT: a step is missing. */
 PPS_API pps_status pps_system_shade(pps_system *system, unsigned sources,
                                     pps_irradiance **out);
+
+/* The same at one point on leaf i of the scene, where the leaf's unit normal is `normal`:
+ * [band], both faces. What a shader finds for a pixel. */
+PPS_API pps_status pps_system_shade_point(const pps_system *system, unsigned sources,
+                                          size_t i, const double point[3],
+                                          const double normal[3], double *front,
+                                          double *back);
 
 /* A caster's instance, and the offset in metres of the period that it stands in. */
 PPS_API size_t pps_system_caster(const pps_system *system, size_t k, double offset[2]);
