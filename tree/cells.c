@@ -24,6 +24,8 @@ enum {
     DEFAULT_ACROSS = 16,
     DEFAULT_SAMPLES = 8,
     DEFAULT_POINTS = 64,
+    SUN_SAMPLES = 32,
+    SUN_POINTS = 1 << 20,
     MOST_DIRECTIONS = 22
 };
 static const double MOST_CELLS = 1e9;
@@ -250,6 +252,36 @@ static void measure_directions(pps_cells_own *own, int threads) {
     }
 }
 
+/* ---- the sun ---- */
+
+/* Cells are a third of the light's decay wide in a dense crown, and a leaf may lie in two:
+ * so each leaf's own sunlight is seen from its own points. */
+static size_t sun_samples(const pps_cells_own *own, const pps_cells_options *options) {
+    if (options && options->sun_samples) {
+        return (size_t)options->sun_samples;
+    }
+    size_t n = SUN_POINTS / own->scene->n_leaves;
+    n = n < SUN_SAMPLES ? n : SUN_SAMPLES;
+    return n > own->samples ? n : own->samples;
+}
+
+static void measure_leaf_sun(const pps_cells_own *own, size_t leaf, size_t n,
+                             const double to[3], float sun[2]) {
+    double face[2] = {0, 0};
+    for (size_t k = 0; k < n; k++) {
+        pps_leaf_point p;
+        pps_leaf_point_spread(own->scene, leaf, own->seed, PPS_RANDOM_CELLS, k, n, &p);
+        pps_line line = pps_rays_leave(own->rays, p.point, p.normal, to);
+        if (!pps_rays_occluded(own->rays, &line)) {
+            double cosine = vec_dot(p.normal, to);
+            face[cosine < 0] += fabs(cosine);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        sun[i] = (float)(face[i] / (double)n);
+    }
+}
+
 static int thread_count(const pps_cells_options *options) {
     return options && options->threads > 0 ? options->threads : omp_get_max_threads();
 }
@@ -259,8 +291,19 @@ pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
     const pps_cells_own *own = (const pps_cells_own *)cells;
     const double *s = scene->sun.to;
     const double to[2][3] = {{s[0], s[1], s[2]}, {-s[0], -s[1], -s[2]}};
-    if (!(fabs(vec_length(s) - 1) < 1e-9)) {
+    size_t n_leaves = own->scene->n_leaves, samples = sun_samples(own, options);
+    if (!(fabs(vec_length(s) - 1) < 1e-9) || (options && options->sun_samples < 0)) {
         return PPS_ERR_ARGUMENT;
+    }
+    if (!cells->leaf_sun) {
+        cells->leaf_sun = malloc(n_leaves * sizeof *cells->leaf_sun);
+    }
+    if (!cells->leaf_sun) {
+        return PPS_ERR_MEMORY;
+    }
+#pragma omp parallel for num_threads(thread_count(options)) schedule(dynamic, 64)
+    for (size_t leaf = 0; leaf < n_leaves; leaf++) {
+        measure_leaf_sun(own, leaf, samples, s, cells->leaf_sun[leaf]);
     }
 #pragma omp parallel for num_threads(thread_count(options)) schedule(dynamic, 16)
     for (size_t cell = 0; cell < cells->n_cells; cell++) {
@@ -363,6 +406,7 @@ void pps_cells_free(pps_cells *cells) {
     free(cells->sun_behind);
     free(cells->sun_visibility);
     free(cells->sun_clear);
+    free(cells->leaf_sun);
     free(cells->depth);
     free(cells->visibility);
     free(cells->both_clear);

@@ -224,6 +224,11 @@ typedef struct {
     double radiance[64][PPS_BANDS_MAX]; /* 4 pi/N times that of each direction */
 } direct_light;
 
+/* The sun's light on the leaf's own points: of models that go by what is seen. */
+static bool own_sun(const pps_light_field *field, const pps_cells *cells) {
+    return cells->leaf_sun && !field->model->ops->counts;
+}
+
 /* The part of a leaf's light, `share` of the whole, that cell c gives it. */
 static void add_cell(const pps_light_field *field, const pps_scene *scene,
                      const pps_cells *cells, const direct_light *direct,
@@ -231,7 +236,7 @@ static void add_cell(const pps_light_field *field, const pps_scene *scene,
                      double *back) {
     size_t bands = (size_t)field->n_bands;
     bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT);
-    double sun = direct->sources & PPS_SUN
+    double sun = direct->sources & PPS_SUN && !own_sun(field, cells)
                      ? vec_dot(normal, scene->sun.to) * (double)field->sun[c]
                      : 0;
     for (size_t b = 0; b < bands; b++) {
@@ -267,6 +272,11 @@ static void light_leaf(const pps_light_field *field, const pps_scene *scene,
     const pps_instance *instance = &scene->instance[at.instance];
     const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
     const pps_leaf *leaf = &mesh->leaf[at.leaf];
+    bool sunlit = direct->sources & PPS_SUN && own_sun(field, cells);
+    for (int b = 0; sunlit && b < field->n_bands; b++) {
+        front[b] += scene->sun.irradiance[b] * (double)cells->leaf_sun[i][PPS_FRONT];
+        back[b] += scene->sun.irradiance[b] * (double)cells->leaf_sun[i][PPS_BACK];
+    }
     for (size_t t = leaf->first; t < leaf->first + leaf->n_triangles; t++) {
         double corner[3][3], a[3], b[3];
         for (int k = 0; k < 3; k++) {

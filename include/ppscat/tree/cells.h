@@ -31,6 +31,9 @@ typedef struct pps_cells_options {
     int threads;     /* 0: all cores; never changes the answer */
     int most_points; /* of a cell, for depths and visibilities towards the directions (a
                         forest has many leaves a cell); 0: 64. The sun's use them all */
+    int sun_samples; /* points a leaf that its own sunlight is averaged over; 0: 32, in
+                        scenes of many leaves as many as make a million, at least
+                        `samples` */
 } pps_cells_options;
 
 /* Per cell: c = (z * n[1] + y) * n[0] + x. Arrays along directions: [c * directions.n + j].
@@ -53,6 +56,9 @@ typedef struct pps_cells {
      * (SPP Eq. 29), and the mean visibility of the sun over points on leaves, and that of
      * the way on (sun_clear, "nothing behind"). */
     double *sun_depth, *sun_behind, *sun_visibility, *sun_clear;
+    /* Per scene leaf, [0] front and [1] back: mean over points on the leaf of the cosine
+     * to the sun where it is seen, 0 where it is not; NULL: not measured. */
+    float (*leaf_sun)[2];
     /* The same towards every direction. */
     float *depth, *visibility;
     /* Mean over pairs of directions of both being clear from the same point: above the
@@ -68,7 +74,7 @@ PPS_API pps_status pps_cells_create(const pps_scene *scene,
                                     const pps_cells_options *options, pps_cells **out);
 
 /* The part that moves with the sun, for the sun of the scene as it stands; the points are
- * those the cells were created with, of options only `threads` counts. */
+ * those the cells were created with, of options only `threads` and `sun_samples` count. */
 PPS_API pps_status pps_cells_set_sun(pps_cells *cells, const pps_scene *scene,
                                      const pps_cells_options *options);
 PPS_API void pps_cells_free(pps_cells *cells); /* NULL is fine */
