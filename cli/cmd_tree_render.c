@@ -268,7 +268,7 @@ int cmd_tree_render(const invocation *call) {
     if (rc == CLI_DONE)
         rc = tree_scene_open(call, &scene);
     if (rc == CLI_DONE) {
-        tree_work work = {scene, &settings, NULL};
+        tree_work work = {.scene = scene, .settings = &settings};
         rc = run(&w, call, &work, &asked);
         tree_work_free(&work);
     }

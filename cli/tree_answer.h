@@ -12,9 +12,11 @@
 typedef enum { TREE_MODEL, TREE_TRACE, TREE_GATHER } tree_method_kind;
 typedef struct {
     tree_method_kind kind;
-    const char *name, *summary, *source;
+    char name[32];
+    const char *summary, *source;
     unsigned sources;
     bool compensates;
+    pps_compensation compensate;  /* the G-factor named with it; NONE: --compensate's */
     const pps_light_model *model; /* NULL but for TREE_MODEL */
 } tree_method;
 
@@ -31,11 +33,12 @@ typedef struct {
 int tree_asked_read(const invocation *call, tree_asked *out);
 void tree_asked_free(tree_asked *asked);
 
-/* A scene made ready: its cells, when a method needs them. */
+/* A scene made ready: what methods need of it and one making serves. */
 typedef struct {
     const pps_scene *scene;
     const tree_settings *settings;
     pps_cells *cells; /* NULL until needed */
+    float *att;       /* of pps_leaf_attenuation; NULL until needed */
 } tree_work;
 void tree_work_free(tree_work *work);
 

@@ -20,13 +20,14 @@ const tree_component tree_components[TREE_COMPONENTS] = {
 };
 
 static int read_bounces(const invocation *call, int *out) {
-    uint64_t bounces = 0;
-    int rc = CLI_DONE;
+    const char *text = option_text(call, OPT_BOUNCES);
 
-    if (strcmp(option_text(call, OPT_BOUNCES), "all") != 0)
-        rc = value_count(call, OPT_BOUNCES, 1, 1000000, &bounces);
-    *out = (int)bounces;
-    return rc;
+    *out = 0;
+    if (strcmp(text, "all") != 0 && !value_whole(text, 1, 1000000, out))
+        return cli_usage("--bounces: '%.60s' is not possible; allowed: whole numbers "
+                         "from 1 to 1000000, or all",
+                         text);
+    return CLI_DONE;
 }
 
 static int read_compensation(const invocation *call, pps_compensation *out) {

@@ -121,6 +121,36 @@ static void unknown_light_is_refused_not_invented(void **state) {
     result_free(&r);
 }
 
+/* The G-factor of an item is that of --compensate; without one a model has none. */
+static void a_model_may_name_its_own_g_factor(void **state) {
+    (void)state;
+    make_scene();
+    result both = program_run("tree irradiance bush.json --model spp+derived,spp");
+    result one =
+        program_run("tree irradiance bush.json --model spp --compensate derived");
+    const char *line = next_line(both.out), *alone = next_line(one.out);
+
+    assert_int_equal(both.status, 0);
+    for (; alone; alone = next_line(alone), line = next_line(line)) {
+        char *model = csv_field(line, 15), *front = csv_field(line, 17),
+             *want = csv_field(alone, 17);
+        assert_string_equal(model, "spp+derived");
+        assert_string_equal(front, want);
+        free(model);
+        free(front);
+        line = next_line(line);
+        model = csv_field(line, 15);
+        front = csv_field(line, 14);
+        assert_string_equal(model, "spp");
+        assert_string_equal(front, "1");
+        free(model);
+        free(front);
+        free(want);
+    }
+    result_free(&both);
+    result_free(&one);
+}
+
 static void render_makes_a_png(void **state) {
     (void)state;
     make_scene();
@@ -177,6 +207,9 @@ static void bad_input_is_one_line_and_exit_2(void **state) {
          "--model 'lattice' names none"},
         {"tree irradiance bush.json --sun 10", "two numbers, AZIMUTH,ELEVATION"},
         {"tree irradiance bush.json --sun 10,95", "an elevation above 0 up to 90"},
+        {"tree irradiance bush.json --model lattice+derived",
+         "unknown model 'lattice+derived'"},
+        {"tree irradiance bush.json --bounces x", "from 1 to 1000000, or all"},
         {"tree irradiance bush.json --cells 0", "--cells: '0' is not possible"},
         {"tree irradiance bush.json --leaf x", "--leaf: 'x' is for meshes"},
         {"tree irradiance bush.obj --leaf x", "no material or object name matches 'x'"},
@@ -214,6 +247,7 @@ int main(void) {
         cmocka_unit_test(irradiance_has_a_row_for_every_leaf_band_model_and_component),
         cmocka_unit_test(the_sun_alone_is_geometry),
         cmocka_unit_test(unknown_light_is_refused_not_invented),
+        cmocka_unit_test(a_model_may_name_its_own_g_factor),
         cmocka_unit_test(render_makes_a_png),
         cmocka_unit_test(threads_do_not_change_an_answer),
         cmocka_unit_test(bad_input_is_one_line_and_exit_2),
