@@ -124,7 +124,7 @@ int cmd_tree_irradiance(const invocation *call) {
     int rc = tree_settings_read(call, &settings);
 
     if (rc == CLI_DONE)
-        rc = tree_asked_read(call, &asked);
+        rc = tree_asked_read(call, false, &asked);
     if (rc == CLI_DONE)
         rc = tree_scene_open(call, &scene);
     if (rc == CLI_DONE)

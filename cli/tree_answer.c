@@ -92,9 +92,10 @@ static const char *choice_name(size_t i) { return choice[i].name; }
 
 static const char *component_name(size_t i) { return tree_components[i].name; }
 
-int tree_asked_read(const invocation *call, tree_asked *out) {
+int tree_asked_read(const invocation *call, bool split, tree_asked *out) {
     name_table methods = {"model", fill_choices(), choice_name};
-    name_table components = {"component", TREE_COMPONENTS, component_name};
+    name_table components = {
+        "component", split ? TREE_COMPONENTS_SPLIT : TREE_COMPONENTS, component_name};
     name_list method, component;
     int rc = names_read(call, OPT_MODEL, &methods, &method);
 

@@ -24,13 +24,14 @@ size_t tree_method_count(void);
 tree_method tree_method_at(size_t i);
 size_t tree_method_find(const char *name); /* tree_method_count() if there is none */
 
-/* The methods of --model and the components of --component. Free with tree_asked_free. */
+/* The methods of --model and the components of --component; split ones are for pictures.
+ * Free with tree_asked_free. */
 typedef struct {
     size_t n_methods, n_components;
     tree_method *method;
     const tree_component **component;
 } tree_asked;
-int tree_asked_read(const invocation *call, tree_asked *out);
+int tree_asked_read(const invocation *call, bool split, tree_asked *out);
 void tree_asked_free(tree_asked *asked);
 
 /* A scene made ready: what methods need of it and one making serves. */
