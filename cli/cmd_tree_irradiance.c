@@ -98,7 +98,7 @@ static int write_all(output *out, const tree_work *work, size_t n, const part *p
 static int run(const invocation *call, const pps_scene *scene,
                const tree_settings *settings, const tree_asked *asked) {
     size_t n = asked->n_methods * asked->n_components;
-    tree_work work = {scene, settings, NULL};
+    tree_work work = {.scene = scene, .settings = settings};
     output out;
     int rc = output_open(&out, call), found;
 
@@ -124,7 +124,7 @@ int cmd_tree_irradiance(const invocation *call) {
     int rc = tree_settings_read(call, &settings);
 
     if (rc == CLI_DONE)
-        rc = tree_asked_read(call, &asked);
+        rc = tree_asked_read(call, false, &asked);
     if (rc == CLI_DONE)
         rc = tree_scene_open(call, &scene);
     if (rc == CLI_DONE)

@@ -14,10 +14,16 @@
 #include "system.h"
 
 static const tree_method references[] = {
-    {TREE_TRACE, "mc", "Monte Carlo: light traced from sun and sky, all bounces", "",
-     PPS_ALL_LIGHT, false, NULL},
-    {TREE_GATHER, "gather", "Monte Carlo: light gathered backwards from every leaf", "",
-     PPS_ALL_LIGHT, false, NULL},
+    {.kind = TREE_TRACE,
+     .name = "mc",
+     .summary = "Monte Carlo: light traced from sun and sky, all bounces",
+     .source = "",
+     .sources = PPS_ALL_LIGHT},
+    {.kind = TREE_GATHER,
+     .name = "gather",
+     .summary = "Monte Carlo: light gathered backwards from every leaf",
+     .source = "",
+     .sources = PPS_ALL_LIGHT},
 };
 enum { N_REFERENCES = sizeof references / sizeof references[0] };
 
@@ -27,8 +33,14 @@ tree_method tree_method_at(size_t i) {
     if (i >= pps_light_model_count())
         return references[i - pps_light_model_count()];
     const pps_light_model *m = pps_light_model_at(i);
-    return (tree_method){TREE_MODEL, m->name,        m->summary, m->source,
-                         m->sources, m->compensates, m};
+    tree_method method = {.kind = TREE_MODEL,
+                          .summary = m->summary,
+                          .source = m->source,
+                          .sources = m->sources,
+                          .compensates = m->compensates,
+                          .model = m};
+    snprintf(method.name, sizeof method.name, "%s", m->name);
+    return method;
 }
 
 size_t tree_method_find(const char *name) {
@@ -53,13 +65,37 @@ static int check_compensation(const invocation *call, const tree_asked *asked) {
                            call->text[OPT_COMPENSATE], option_text(call, OPT_MODEL));
 }
 
-static const char *method_name(size_t i) { return tree_method_at(i).name; }
+/* What --model takes: every method, and those with a G-factor also with one of their own,
+ * as "spp+derived". */
+static tree_method choice[NAMES_MAX];
+
+static size_t fill_choices(void) {
+    static const char *const factors[] = {"derived", "printed"};
+    size_t n = 0;
+
+    while (n < tree_method_count()) {
+        choice[n] = tree_method_at(n);
+        n++;
+    }
+    for (size_t i = 0; i < tree_method_count(); i++) {
+        for (int k = 0; k < 2 && choice[i].compensates && n < NAMES_MAX; k++, n++) {
+            choice[n] = choice[i];
+            choice[n].compensate = PPS_COMPENSATE_DERIVED + (unsigned)k;
+            snprintf(choice[n].name, sizeof choice[n].name, "%s+%s",
+                     choice[i].model->name, factors[k]);
+        }
+    }
+    return n;
+}
+
+static const char *choice_name(size_t i) { return choice[i].name; }
 
 static const char *component_name(size_t i) { return tree_components[i].name; }
 
-int tree_asked_read(const invocation *call, tree_asked *out) {
-    name_table methods = {"model", tree_method_count(), method_name};
-    name_table components = {"component", TREE_COMPONENTS, component_name};
+int tree_asked_read(const invocation *call, bool split, tree_asked *out) {
+    name_table methods = {"model", fill_choices(), choice_name};
+    name_table components = {
+        "component", split ? TREE_COMPONENTS_SPLIT : TREE_COMPONENTS, component_name};
     name_list method, component;
     int rc = names_read(call, OPT_MODEL, &methods, &method);
 
@@ -74,7 +110,7 @@ int tree_asked_read(const invocation *call, tree_asked *out) {
         return cli_no_memory();
     out->n_methods = method.n;
     for (size_t i = 0; i < method.n; i++)
-        out->method[i] = tree_method_at(method.index[i]);
+        out->method[i] = choice[method.index[i]];
     out->n_components = component.n;
     for (size_t i = 0; i < component.n; i++)
         out->component[i] = &tree_components[component.index[i]];
@@ -129,12 +165,35 @@ static pps_status need_cells(tree_work *work) {
     return status;
 }
 
-static pps_status run_model(tree_work *work, const pps_light_model *model,
+static pps_status need_attenuations(tree_work *work) {
+    pps_attenuation_options options = {.threads = work->settings->threads};
+    float *att = work->att;
+    pps_status status = PPS_OK;
+
+    if (!att) {
+        att = malloc((PPS_OCTANTS * work->scene->n_leaves + 1) * sizeof *att);
+        status =
+            att ? pps_leaf_attenuation(work->scene, &options, att) : PPS_ERR_MEMORY;
+        if (status)
+            free(att);
+        else
+            work->att = att;
+    }
+    return status;
+}
+
+static pps_status run_model(tree_work *work, const tree_method *method,
                             unsigned sources, tree_answer *out) {
+    const pps_light_model *model = method->model;
     pps_light_options options = work->settings->light;
     pps_status status = model->without_cells ? PPS_OK : need_cells(work);
 
+    if (!status && model->takes_attenuations)
+        status = need_attenuations(work);
+    options.att = work->att;
     options.sources = sources;
+    if (method->compensate)
+        options.compensate = method->compensate;
     if (!model->compensates)
         options.compensate = PPS_COMPENSATE_NONE;
     if (status)
@@ -161,7 +220,7 @@ int tree_answer_find(tree_work *work, const tree_method *method,
         return CLI_REFUSED;
     }
     status = method->kind == TREE_MODEL
-                 ? run_model(work, method->model, sources, out)
+                 ? run_model(work, method, sources, out)
                  : run_reference(work, method, sources, &out->light);
     if (status == PPS_ERR_CANCELLED)
         return cli_failed("interrupted; nothing is written");
@@ -179,7 +238,10 @@ void tree_answer_free(tree_answer *answer) {
     *answer = (tree_answer){0};
 }
 
-void tree_work_free(tree_work *work) { pps_cells_free(work->cells); }
+void tree_work_free(tree_work *work) {
+    pps_cells_free(work->cells);
+    free(work->att);
+}
 
 tree_place tree_answer_place(const tree_work *work, const tree_answer *answer,
                              size_t leaf) {

@@ -12,9 +12,11 @@
 typedef enum { TREE_MODEL, TREE_TRACE, TREE_GATHER } tree_method_kind;
 typedef struct {
     tree_method_kind kind;
-    const char *name, *summary, *source;
+    char name[32];
+    const char *summary, *source;
     unsigned sources;
     bool compensates;
+    pps_compensation compensate;  /* the G-factor named with it; NONE: --compensate's */
     const pps_light_model *model; /* NULL but for TREE_MODEL */
 } tree_method;
 
@@ -22,20 +24,22 @@ size_t tree_method_count(void);
 tree_method tree_method_at(size_t i);
 size_t tree_method_find(const char *name); /* tree_method_count() if there is none */
 
-/* The methods of --model and the components of --component. Free with tree_asked_free. */
+/* The methods of --model and the components of --component; split ones are for pictures.
+ * Free with tree_asked_free. */
 typedef struct {
     size_t n_methods, n_components;
     tree_method *method;
     const tree_component **component;
 } tree_asked;
-int tree_asked_read(const invocation *call, tree_asked *out);
+int tree_asked_read(const invocation *call, bool split, tree_asked *out);
 void tree_asked_free(tree_asked *asked);
 
-/* A scene made ready: its cells, when a method needs them. */
+/* A scene made ready: what methods need of it and one making serves. */
 typedef struct {
     const pps_scene *scene;
     const tree_settings *settings;
     pps_cells *cells; /* NULL until needed */
+    float *att;       /* of pps_leaf_attenuation; NULL until needed */
 } tree_work;
 void tree_work_free(tree_work *work);
 

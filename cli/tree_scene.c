@@ -11,22 +11,28 @@
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-const tree_component tree_components[TREE_COMPONENTS] = {
-    {"all", PPS_ALL_LIGHT},
-    {"sun", PPS_SUN},
-    {"indirect", PPS_SUN_INDIRECT},
-    {"sky", PPS_SKY},
-    {"sky-indirect", PPS_SKY_INDIRECT},
+const tree_component tree_components[TREE_COMPONENTS_SPLIT] = {
+    {"all", PPS_ALL_LIGHT, false},
+    {"sun", PPS_SUN, false},
+    {"indirect", PPS_SUN_INDIRECT, false},
+    {"sky", PPS_SKY, false},
+    {"sky-indirect", PPS_SKY_INDIRECT, false},
+    {"all+split", PPS_ALL_LIGHT, true},
+    {"sun+split", PPS_SUN, true},
+    {"indirect+split", PPS_SUN_INDIRECT, true},
+    {"sky+split", PPS_SKY, true},
+    {"sky-indirect+split", PPS_SKY_INDIRECT, true},
 };
 
 static int read_bounces(const invocation *call, int *out) {
-    uint64_t bounces = 0;
-    int rc = CLI_DONE;
+    const char *text = option_text(call, OPT_BOUNCES);
 
-    if (strcmp(option_text(call, OPT_BOUNCES), "all") != 0)
-        rc = value_count(call, OPT_BOUNCES, 1, 1000000, &bounces);
-    *out = (int)bounces;
-    return rc;
+    *out = 0;
+    if (strcmp(text, "all") != 0 && !value_whole(text, 1, 1000000, out))
+        return cli_usage("--bounces: '%.60s' is not possible; allowed: whole numbers "
+                         "from 1 to 1000000, or all",
+                         text);
+    return CLI_DONE;
 }
 
 static int read_compensation(const invocation *call, pps_compensation *out) {

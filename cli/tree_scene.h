@@ -27,12 +27,13 @@ int tree_settings_read(const invocation *call, tree_settings *out);
  * is none or it cannot be read. */
 int tree_scene_open(const invocation *call, pps_scene **out);
 
-/* Components by name. */
+/* Components by name; behind the plain ones the same, split for the eye. */
 typedef struct {
     const char *name;
     unsigned sources; /* pps_light_source, added */
+    bool split;       /* a picture sorts it by what leaves reflect and let through */
 } tree_component;
-enum { TREE_COMPONENTS = 5 };
-extern const tree_component tree_components[TREE_COMPONENTS];
+enum { TREE_COMPONENTS = 5, TREE_COMPONENTS_SPLIT = 2 * TREE_COMPONENTS };
+extern const tree_component tree_components[TREE_COMPONENTS_SPLIT];
 
 #endif

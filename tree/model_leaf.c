@@ -5,14 +5,22 @@
 
 #include "tree/light_model.h"
 
+static pps_status light(const pps_lit_scene *lit, const float *att,
+                        pps_irradiance *out) {
+    return pps_leaf_light(lit->scene, att, lit->options.sun_mean, lit->options.sources,
+                          out);
+}
+
 static pps_status leaves(const pps_lit_scene *lit, pps_irradiance *out) {
+    if (lit->options.att) {
+        return light(lit, lit->options.att, out);
+    }
     pps_attenuation_options options = {.threads = lit->options.threads};
     float *att = malloc((PPS_OCTANTS * lit->scene->n_leaves + 1) * sizeof *att);
     pps_status status =
         att ? pps_leaf_attenuation(lit->scene, &options, att) : PPS_ERR_MEMORY;
     if (!status) {
-        status = pps_leaf_light(lit->scene, att, lit->options.sun_mean,
-                                lit->options.sources, out);
+        status = light(lit, att, out);
     }
     free(att);
     return status;
@@ -27,5 +35,6 @@ const pps_light_model pps_light_leaf = {
     .sources = PPS_SUN | PPS_SUN_INDIRECT | PPS_SKY,
     .without_cells = true,
     .without_field = true,
+    .takes_attenuations = true,
     .ops = &ops,
 };

@@ -96,5 +96,6 @@ const pps_light_model pps_light_leaf_lattice = {
     .source = "Boulanger et al. 2008; docs/theory.md section 10",
     .sources = PPS_ALL_LIGHT,
     .without_field = true,
+    .takes_attenuations = true,
     .ops = &ops,
 };

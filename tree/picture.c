@@ -43,25 +43,49 @@ static int by_size(const void *a, const void *b) {
     return (*p > *q) - (*p < *q);
 }
 
-/* The exposure that makes white of the brightest percent of the pixels, by their largest
- * part; 1 for a black picture. 0 where there is no memory. */
-static double auto_exposure(const pps_picture *picture) {
-    size_t n = (size_t)picture->width * (size_t)picture->height;
-    float *largest = malloc(n * sizeof *largest);
-    if (!largest) {
-        return 0;
-    }
-    for (size_t i = 0; i < n; i++) {
+static size_t pixels(const pps_picture *picture) {
+    return picture ? (size_t)picture->width * (size_t)picture->height : 0;
+}
+
+/* The largest of red, green and blue of every pixel; returns behind the last. */
+static float *largest_parts(const pps_picture *picture, float *out) {
+    for (size_t i = 0; i < pixels(picture); i++) {
         const float *p = &picture->rgb[3 * i];
         float most = p[0] > p[1] ? p[0] : p[1];
         most = p[2] > most ? p[2] : most;
-        largest[i] = isfinite(most) ? most : 0;
+        *out++ = isfinite(most) ? most : 0;
     }
-    qsort(largest, n, sizeof *largest, by_size);
-    double white = (double)largest[n - (n >= 100 ? n / 100 : 1)];
-    white = white > 0 ? white : (double)largest[n - 1];
+    return out;
+}
+
+pps_status pps_picture_exposure(size_t n, pps_picture *const *picture,
+                                double *exposure) {
+    size_t all = 0;
+    *exposure = 1;
+    for (size_t i = 0; i < n; i++) {
+        all += pixels(picture[i]);
+    }
+    float *largest = malloc((all + 1) * sizeof *largest), *end = largest;
+    if (!largest) {
+        return PPS_ERR_MEMORY;
+    }
+    for (size_t i = 0; i < n; i++) {
+        end = largest_parts(picture[i], end);
+    }
+    qsort(largest, all, sizeof *largest, by_size);
+    if (all > 0) {
+        double white = (double)largest[all - (all >= 100 ? all / 100 : 1)];
+        white = white > 0 ? white : (double)largest[all - 1];
+        *exposure = white > 0 ? 1 / white : 1;
+    }
     free(largest);
-    return white > 0 ? 1 / white : 1;
+    return PPS_OK;
+}
+
+void pps_picture_expose(pps_picture *picture, double exposure) {
+    for (size_t i = 0; i < 3 * pixels(picture); i++) {
+        picture->rgb[i] = (float)(exposure * (double)picture->rgb[i]);
+    }
 }
 
 static pps_status fail(pps_problem *problem, const char *path, const char *why) {
@@ -102,17 +126,19 @@ pps_status pps_picture_write(const pps_picture *picture, double exposure,
     if (!(exposure >= 0) || !isfinite(exposure)) {
         return PPS_ERR_ARGUMENT;
     }
-    size_t n = 3 * (size_t)picture->width * (size_t)picture->height;
+    size_t n = 3 * pixels(picture);
     uint8_t *byte = malloc(n);
-    exposure = exposure > 0 ? exposure : auto_exposure(picture);
-    if (!byte || exposure == 0) {
-        free(byte);
-        return PPS_ERR_MEMORY;
+    pps_status status = byte ? PPS_OK : PPS_ERR_MEMORY;
+    if (!status && exposure == 0) {
+        pps_picture copy = *picture, *one = &copy;
+        status = pps_picture_exposure(1, &one, &exposure);
     }
-    for (size_t i = 0; i < n; i++) {
-        byte[i] = srgb_byte(exposure * (double)picture->rgb[i]);
+    if (!status) {
+        for (size_t i = 0; i < n; i++) {
+            byte[i] = srgb_byte(exposure * (double)picture->rgb[i]);
+        }
+        status = write_png(byte, picture, path, problem);
     }
-    pps_status status = write_png(byte, picture, path, problem);
     free(byte);
     return status;
 }

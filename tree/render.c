@@ -453,9 +453,9 @@ pps_status pps_render_false(const pps_scene *scene, const pps_false_color *color
         return PPS_ERR_ARGUMENT;
     }
     painter p = {.false_color = color};
-    int width = picture->width - pps_bar_width(picture);
+    int width = picture->width - (color->bare ? 0 : pps_bar_width(picture));
     pps_status status = paint(&p, scene, camera, samples, width, picture);
-    if (!status) {
+    if (!status && !color->bare) {
         pps_bar_draw(color, picture);
     }
     return status;

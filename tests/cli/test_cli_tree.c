@@ -121,6 +121,36 @@ static void unknown_light_is_refused_not_invented(void **state) {
     result_free(&r);
 }
 
+/* The G-factor of an item is that of --compensate; without one a model has none. */
+static void a_model_may_name_its_own_g_factor(void **state) {
+    (void)state;
+    make_scene();
+    result both = program_run("tree irradiance bush.json --model spp+derived,spp");
+    result one =
+        program_run("tree irradiance bush.json --model spp --compensate derived");
+    const char *line = next_line(both.out), *alone = next_line(one.out);
+
+    assert_int_equal(both.status, 0);
+    for (; alone; alone = next_line(alone), line = next_line(line)) {
+        char *model = csv_field(line, 15), *front = csv_field(line, 17),
+             *want = csv_field(alone, 17);
+        assert_string_equal(model, "spp+derived");
+        assert_string_equal(front, want);
+        free(model);
+        free(front);
+        line = next_line(line);
+        model = csv_field(line, 15);
+        front = csv_field(line, 14);
+        assert_string_equal(model, "spp");
+        assert_string_equal(front, "1");
+        free(model);
+        free(front);
+        free(want);
+    }
+    result_free(&both);
+    result_free(&one);
+}
+
 static void render_makes_a_png(void **state) {
     (void)state;
     make_scene();
@@ -136,6 +166,48 @@ static void render_makes_a_png(void **state) {
     assert_true(file_exists("g.png"));
     assert_false(file_exists("bush.png.part"));
     result_free(&r);
+}
+
+/* The size in a PNG's header. */
+static void png_size(const char *path, int *width, int *height) {
+    FILE *file = fopen(path, "rb");
+    unsigned char head[24];
+
+    assert_non_null(file);
+    assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+    fclose(file);
+    *width = head[18] << 8 | head[19];
+    *height = head[22] << 8 | head[23];
+}
+
+/* Models across; with several components models down and components across. A panel that
+ * a model has no light for stays blank, said once, and exit 3. */
+static void a_picture_of_several_has_a_panel_each(void **state) {
+    (void)state;
+    enum { W = 60, H = 40, LINE = 14, GAP = 4 };
+    int width, height;
+    make_scene();
+    result row = program_run("tree render bush.json -o row.png --size 60x40 "
+                             "--model spp+derived,spp,ss");
+    result grid =
+        program_run("tree render bush.json -o grid.png --size 60x40 --model "
+                    "leaf,lattice --component sky,sun,sky-indirect,all+split");
+    result key = program_run("tree render bush.json -o key.png --size 60x40 --model "
+                             "spp,ss --false-color irradiance");
+    assert_int_equal(row.status, 0);
+    png_size("row.png", &width, &height);
+    assert_int_equal(width, 3 * W + 2 * GAP);
+    assert_int_equal(height, LINE + H + LINE);
+    assert_int_equal(grid.status, 3);
+    assert_int_equal(count_lines(grid.err), 1);
+    assert_non_null(strstr(grid.err, "leaf refuses component sky-indirect"));
+    png_size("grid.png", &width, &height);
+    assert_int_equal(width, 4 * W + 3 * GAP);
+    assert_int_equal(height, 2 * (LINE + H) + LINE);
+    assert_int_equal(key.status, 0);
+    result_free(&row);
+    result_free(&grid);
+    result_free(&key);
 }
 
 static void threads_do_not_change_an_answer(void **state) {
@@ -177,6 +249,9 @@ static void bad_input_is_one_line_and_exit_2(void **state) {
          "--model 'lattice' names none"},
         {"tree irradiance bush.json --sun 10", "two numbers, AZIMUTH,ELEVATION"},
         {"tree irradiance bush.json --sun 10,95", "an elevation above 0 up to 90"},
+        {"tree irradiance bush.json --model lattice+derived",
+         "unknown model 'lattice+derived'"},
+        {"tree irradiance bush.json --bounces x", "from 1 to 1000000, or all"},
         {"tree irradiance bush.json --cells 0", "--cells: '0' is not possible"},
         {"tree irradiance bush.json --leaf x", "--leaf: 'x' is for meshes"},
         {"tree irradiance bush.obj --leaf x", "no material or object name matches 'x'"},
@@ -186,7 +261,16 @@ static void bad_input_is_one_line_and_exit_2(void **state) {
         {"tree render bush.json -o nowhere/a.png", "cannot write 'nowhere/a.png'"},
         {"tree render bush.json -o a.png --size 3x3", "--size: '3x3' is not possible"},
         {"tree render bush.json -o a.png --view up,down", "--view: 'up,down'"},
-        {"tree render bush.json -o a.png --model ss,spp", "a picture takes one"},
+        {"tree render bush.json -o a.png --model leaf --component sky-indirect",
+         "do not fit"},
+        {"tree render bush.json -o a.png --model ss,spp --false-color depth "
+         "--component sun+split",
+         "'sun+split' has colours of its own"},
+        {"tree irradiance bush.json --component sun+split",
+         "unknown component 'sun+split'"},
+        {"tree render bush.json -o a.png --model ss,spp,lattice,leaf "
+         "--size 16384x16",
+         "--size: '16384x16' is too large for 4 x 1 panels"},
         {"tree render bush.json -o a.png --range 1,2", "--range is for --false-color"},
         {"tree render bush.json -o a.png --false-color depth --range 2,1", "is empty"},
         {"tree render bush.json -o a.png --false-color depth --model leaf",
@@ -214,7 +298,9 @@ int main(void) {
         cmocka_unit_test(irradiance_has_a_row_for_every_leaf_band_model_and_component),
         cmocka_unit_test(the_sun_alone_is_geometry),
         cmocka_unit_test(unknown_light_is_refused_not_invented),
+        cmocka_unit_test(a_model_may_name_its_own_g_factor),
         cmocka_unit_test(render_makes_a_png),
+        cmocka_unit_test(a_picture_of_several_has_a_panel_each),
         cmocka_unit_test(threads_do_not_change_an_answer),
         cmocka_unit_test(bad_input_is_one_line_and_exit_2),
     };

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <ppscat/tree/grow.h>
@@ -157,6 +158,49 @@ static void leaves_may_turn_without_new_attenuations(void **state) {
     pps_scene_free(scene);
 }
 
+/* Attenuations that the caller has serve as those the models make: the same light, bit by
+ * bit; and they are what is used, for other ones give other light. */
+static void attenuations_may_be_given(void **state) {
+    (void)state;
+    stage s = make_stage((pps_crown){PPS_CROWN_UNIFORM, 3, 500, 66});
+    static const char *const names[] = {"leaf", "leaf-lattice"};
+    float *att = malloc(PPS_OCTANTS * s.scene->n_leaves * sizeof *att);
+    assert_int_equal(pps_leaf_attenuation(s.scene, NULL, att), PPS_OK);
+    for (int i = 0; i < 2; i++) {
+        const pps_light_model *model = pps_light_model_find(names[i]);
+        pps_light_options given = {.att = att};
+        pps_irradiance *light[2];
+        assert_true(model->takes_attenuations);
+        assert_int_equal(pps_light_model_run(model, s.scene, s.cells, NULL, &light[0]),
+                         PPS_OK);
+        assert_int_equal(
+            pps_light_model_run(model, s.scene, s.cells, &given, &light[1]), PPS_OK);
+        assert_memory_equal(light[0]->front, light[1]->front,
+                            s.scene->n_leaves * sizeof *light[0]->front);
+        assert_memory_equal(light[0]->back, light[1]->back,
+                            s.scene->n_leaves * sizeof *light[0]->back);
+        pps_irradiance_free(light[1]);
+        given.sources = PPS_SUN; /* all open: |n.s| */
+        float *open = malloc(PPS_OCTANTS * s.scene->n_leaves * sizeof *open);
+        for (size_t k = 0; k < PPS_OCTANTS * s.scene->n_leaves; k++) {
+            open[k] = 1;
+        }
+        given.att = open;
+        assert_int_equal(
+            pps_light_model_run(model, s.scene, s.cells, &given, &light[1]), PPS_OK);
+        for (size_t k = 0; k < s.scene->n_leaves; k++) {
+            const double *normal = s.scene->prototype[0].mesh->leaf[k].normal;
+            assert_close(light[1]->front[k] + light[1]->back[k],
+                         fabs(vec_dot(normal, s.scene->sun.to)), 1e-12, 1e-15);
+        }
+        free(open);
+        pps_irradiance_free(light[0]);
+        pps_irradiance_free(light[1]);
+    }
+    free(att);
+    stage_free(&s);
+}
+
 /* To a viewer: B's Figure 7 from the side, with the room that Monte Carlo's noise takes. */
 static void a_viewer_sees_the_errors_of_figure_7(void **state) {
     (void)state;
@@ -197,6 +241,7 @@ int main(void) {
         cmocka_unit_test(the_lattice_continues_where_one_bounce_ends),
         cmocka_unit_test(faint_leaves_need_no_lattice),
         cmocka_unit_test(leaves_may_turn_without_new_attenuations),
+        cmocka_unit_test(attenuations_may_be_given),
         cmocka_unit_test(a_viewer_sees_the_errors_of_figure_7),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

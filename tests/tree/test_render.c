@@ -294,7 +294,8 @@ static void false_colours_show_the_value(void **state) {
     square at[] = {{0, 0, 1, LEAF}, {2, 0, 1, LEAF}, {4, 0, 1, LEAF}};
     pps_scene *scene = scene_of(squares(3, at));
     double value[] = {-5, (double)NAN, 30};
-    pps_false_color color = {value, 0, 10, "irradiance"};
+    pps_false_color color = {
+        .value = value, .low = 0, .high = 10, .title = "irradiance"};
     pps_camera camera = {{2.5, 0.5, 14}, {2.5, 0.5, 1}, {0, 1, 0}, 30};
     pps_picture *picture;
     assert_int_equal(pps_picture_create(800, 400, &picture), PPS_OK);

@@ -439,9 +439,15 @@ static void the_scenes_that_come_along_are_read(void **state) {
         const char *name;
         size_t instances, triangles;
     } rows[] = {
-        {"scenes/single-tree.json", 1, 6806}, {"scenes/periodic-forest.json", 4, 6806},
-        {"scenes/CHERRY16.json", 16, 62500},  {"scenes/CHERRY64.json", 64, 62500},
-        {"scenes/MAPLE16.json", 16, 219000},  {"scenes/MAPLE64.json", 64, 219000},
+        {"scenes/single-tree.json", 1, 6806},
+        {"scenes/periodic-forest.json", 4, 6806},
+        {"scenes/CHERRY16.json", 16, 62500},
+        {"scenes/CHERRY64.json", 64, 62500},
+        {"scenes/spp-figure5.json", 1, 219000},
+        {"scenes/spp-figure7.json", 1, 219000},
+        {"scenes/leaf-figure7.json", 1, 3000},
+        {"scenes/MAPLE16.json", 16, 219000},
+        {"scenes/MAPLE64.json", 64, 219000},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         pps_scene *scene = read_scene(files_data(rows[i].name));

@@ -25,14 +25,18 @@ typedef struct pps_light_options {
     double kappa;          /* `lattice`: escape factor; 0: measured */
     pps_sun_mean sun_mean; /* `leaf`: how it averages over its octants */
     int threads;
+    const float
+        *att; /* models with takes_attenuations: the scene's pps_leaf_attenuation;
+                         NULL: they are found anew, which takes far longer than the rest */
 } pps_light_options;
 
 typedef struct pps_light_model {
     const char *name, *summary, *source;
-    unsigned sources;   /* pps_light_source that it has */
-    bool compensates;   /* takes the G-factor */
-    bool without_cells; /* needs none: cells may be NULL */
-    bool without_field; /* lights leaves, not cells: no pps_light_field */
+    unsigned sources;        /* pps_light_source that it has */
+    bool compensates;        /* takes the G-factor */
+    bool without_cells;      /* needs none: cells may be NULL */
+    bool without_field;      /* lights leaves, not cells: no pps_light_field */
+    bool takes_attenuations; /* of the leaves' octants */
     const struct pps_light_model_ops *ops;
 } pps_light_model;
 
