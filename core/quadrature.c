@@ -1,8 +1,8 @@
 /* Nodes and weights of a hemisphere.
  *
- * Gauss-Legendre by Newton's method in theta, x = cos theta, with the recurrence in
- * differences and u = 1 - x, so that the nodes next to the edges keep full relative
- * accuracy. (GSL's table computes sizes that it has not stored to 1e-10 only, which shows
+ * Gauss-Legendre by Newton's method in theta, x = cos theta, made cubic by Legendre's
+ * equation, with the recurrence in differences and u = 1 - x, so that the nodes next to the
+ * edges keep full relative accuracy. (GSL's table computes sizes that it has not stored to 1e-10 only, which shows
  * in the answers at 88 streams and not at 64.)
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -43,9 +43,10 @@ static void gauss_block(int n, size_t first, size_t count, double *node,
     double theta[BLOCK], u[BLOCK], sine[BLOCK], p[BLOCK], slope[BLOCK];
     size_t last = (size_t)n - 1;
     for (size_t i = 0; i < count; i++) {
-        theta[i] = pi * ((double)(first + i) + 0.75) / (n + 0.5);
+        double psi = pi * ((double)(first + i) + 0.75) / (n + 0.5);
+        theta[i] = psi + 1 / (8 * (n + 0.5) * (n + 0.5) * tan(psi)); /* to n^-4 */
     }
-    for (int step = 0;; step++) { /* quadratic from 1e-2 / n^2 on */
+    for (int step = 0;; step++) { /* relative error 2e-3, 6e-9, rounding */
         for (size_t i = 0; i < count; i++) {
             double s = sin(theta[i] / 2), c = cos(theta[i] / 2);
             size_t low = first + i, high = last - low;
@@ -55,11 +56,13 @@ static void gauss_block(int n, size_t first, size_t count, double *node,
             u[i] = 2 * s * s;
         }
         legendre_theta(n, count, u, p, slope);
-        if (step == 4) {
+        if (step == 2) {
             break;
         }
         for (size_t i = 0; i < count; i++) {
-            theta[i] -= p[i] * sine[i] / slope[i];
+            /* P'' = -cot theta P' - n (n + 1) P gives the second order of the step */
+            double h = -p[i] * sine[i] / slope[i], cosine = 1 - u[i];
+            theta[i] += h * (1 + h / 2 * (cosine / sine[i] - n * (n + 1.0) * h));
         }
     }
     for (size_t i = 0; i < count; i++) {

@@ -75,14 +75,14 @@ static void scale_peak(pps_dom *dom, bool scaled) {
 }
 
 static void quadrature_bias(pps_discrete *d, pps_nodes nodes) {
-    double p[PPS_STREAMS_MAX], sum[PPS_STREAMS_MAX] = {0};
+    double p[PPS_STREAMS_MAX];
+    memset(d->bias, 0, (size_t)d->n_moments * sizeof *d->bias);
     for (int i = 0; nodes != PPS_NODES_GAUSS && i < d->n; i++) {
         pps_legendre(0, d->n_moments, d->mu[i], p);
         for (int l = 2; l < d->n_moments; l += 2) {
-            sum[l] += d->weight[i] * p[l];
+            d->bias[l] += d->weight[i] * p[l];
         }
     }
-    memcpy(d->bias, sum, (size_t)d->n_moments * sizeof *sum);
 }
 
 static pps_status discretise(pps_dom *dom, int streams, bool scaled) {

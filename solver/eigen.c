@@ -185,13 +185,13 @@ PPS_LANE void sweep(work *w, size_t l, size_t m) {
     for (size_t i = m; i-- > l;) {
         double f = s * e[i], b = c * e[i], h = f * f + g * g, r = sqrt(h);
         e[i + 1] = r;
-        if (r == 0) { /* it fell apart on the way: deflate */
+        if (h < DBL_MIN) { /* it fell apart on the way: deflate */
             d[i + 1] -= p;
             e[m] = 0;
             rotate(w, i + 1, m, cosine, sine);
             return;
         }
-        double over = 1 / r;
+        double over = r * (1 / h); /* 1/r, without waiting for r */
         s = f * over;
         c = g * over;
         g = d[i + 1] - p;

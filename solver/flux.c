@@ -107,36 +107,31 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
     }
 }
 
-/* e^(-k tau) and e^(-k (w - tau)) of every mode, at one depth. */
-typedef struct {
-    double top[PPS_STREAMS_MAX / 2], bottom[PPS_STREAMS_MAX / 2];
-} mode_decays;
-
-static void decays_at(const pps_order *order, double tau, double rest,
-                      mode_decays *decays) {
+/* e^(-k tau) of every mode, then e^(-k (w - tau)) of every mode, at one depth. */
+static void decays_at(const pps_order *order, double tau, double rest, double *decay) {
     size_t n = (size_t)order->n;
     for (size_t j = 0; j < n; j++) {
-        decays->top[j] = -order->k[j] * tau;
-        decays->bottom[j] = isinf(rest) ? -HUGE_VAL : -order->k[j] * rest;
+        decay[j] = -order->k[j] * tau;
+        decay[n + j] = isinf(rest) ? -HUGE_VAL : -order->k[j] * rest;
     }
-    pps_exp_array(n, decays->top, decays->top);
-    pps_exp_array(n, decays->bottom, decays->bottom);
+    pps_exp_array(2 * n, decay, decay);
 }
 
 /* The exponentials, homogeneous of modes k w >= 1 and particular of all. */
 PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
                                         size_t first, size_t n,
-                                        const mode_decays *decays, const double *eqt,
+                                        const double *decay, const double *eqt,
                                         mode_sums *out) {
     const pps_solution *s = &order->solution;
+    size_t n_modes = (size_t)order->n;
     for (size_t at = 0; at < n; at += FOUR) {
         four_sums sum = sums_at(out, at);
         four beam = four_at(eqt + at);
-        for (size_t j = 0; j < (size_t)order->n; j++) {
+        for (size_t j = 0; j < n_modes; j++) {
             size_t i = j * padded + first + at;
             mode_weights of = weights_of(order, j);
-            four falls = four_at(s->c1 + i) * decays->top[j];
-            four grows = four_at(s->c2 + i) * decays->bottom[j];
+            four falls = four_at(s->c1 + i) * decay[j];
+            four grows = four_at(s->c2 + i) * decay[n_modes + j];
             four psi = (falls + grows) + four_at(s->p + i) * beam;
             four phi = order->k[j] * (falls - grows) + four_at(s->r + i) * beam;
             add_mode(&of, psi, phi, &sum);
@@ -286,30 +281,45 @@ static void correct_single(const pps_dom *dom, double mu0, double tau, double sc
 
 /* ---- all together ---- */
 
-/* The beam at a depth: e^(-q tau), the same of the scaled depth, and what delta-M left in
- * it, which is diffuse light of the true problem: the difference of the two. */
+/* The beams at the depths, without gaps: beam l at depth k stands at [k * n + l], n beams
+ * in the block, and a few more may be read. e^(-q tau), the same of the scaled depth, and
+ * what delta-M left in the beam, which is diffuse light of the true problem: the
+ * difference of the two. */
+enum { MOST_HERE = DEPTHS * PPS_LANES + FOUR };
 typedef struct {
-    double direct[PPS_LANES], scaled[PPS_LANES], peak[PPS_LANES];
-} beam_here;
+    double direct[MOST_HERE], scaled[MOST_HERE], peak[MOST_HERE];
+} beams_here;
 
-PPS_CLONES static void beam_at(size_t n, const double *rates, double tau, double scaled,
-                               beam_here *beam) {
-    for (size_t at = 0; at < n; at += FOUR) {
-        four q = four_at(rates + at), z = q * (tau - scaled);
-        four here = four_exp(-q * scaled);
-        four_to(beam->direct + at, four_exp(-q * tau));
-        four_to(beam->scaled + at, here);
-        four_to(beam->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
+PPS_CLONES static void beams_at(size_t n, const double *rates, size_t n_tau,
+                                const double *tau, const double *scaled,
+                                beams_here *beams) {
+    size_t all = n * n_tau;
+    for (size_t k = 0; k < n_tau; k++) {
+        for (size_t l = 0; l < n; l++) { /* their exponents */
+            beams->direct[k * n + l] = -rates[l] * tau[k];
+            beams->scaled[k * n + l] = -rates[l] * scaled[k];
+            beams->peak[k * n + l] = rates[l] * (tau[k] - scaled[k]);
+        }
+    }
+    for (size_t l = 0; l < FOUR; l++) {
+        beams->direct[all + l] = beams->scaled[all + l] = beams->peak[all + l] = 0;
+    }
+    for (size_t at = 0; at < all; at += FOUR) {
+        four here = four_exp(four_at(beams->scaled + at)), z = four_at(beams->peak + at);
+        four_to(beams->direct + at, four_exp(four_at(beams->direct + at)));
+        four_to(beams->scaled + at, here);
+        four_to(beams->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
     }
 }
 
+/* Beam l of the block, which stands at [here] of `beams`. */
 static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
-                             const mode_sums *sum, const beam_here *beam,
+                             const mode_sums *sum, const beams_here *beams, size_t here,
                              double thin_scale) {
     const pps_dom *dom = block->dom;
     size_t b = block->first + l;
     double mu0 = dom->beams.mu0[b], scaled = tau * dom->stretch;
-    double direct = dom->beams.sky ? 0 : beam->direct[l];
+    double direct = dom->beams.sky ? 0 : beams->direct[here];
     pps_flux flux = {
         .down = flux_down(dom, b, scaled, sum->even[l] + sum->odd[l], sum->size[l]),
         .up = flux_up(dom, b, scaled, sum->even[l] - sum->odd[l], sum->size[l]),
@@ -319,8 +329,8 @@ static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
     if (thin_scale > 0) {
         correct_single(dom, mu0, tau, thin_scale, &flux);
     } else if (!dom->beams.sky) {
-        flux.down += mu0 * beam->peak[l];
-        flux.mean_diffuse += beam->peak[l] / (4 * PI);
+        flux.down += mu0 * beams->peak[here];
+        flux.mean_diffuse += beams->peak[here] / (4 * PI);
     }
     flux.mean = flux.mean_diffuse + direct / (4 * PI);
     return flux;
@@ -332,7 +342,8 @@ static void block_fluxes(const beam_block *block, size_t n_tau, const double *ta
     const pps_dom *dom = block->dom;
     double w = pps_dom_scaled_thickness(dom), scaled[DEPTHS];
     mode_sums sum[DEPTHS];
-    mode_decays decays;
+    double decay[PPS_STREAMS_MAX];
+    beams_here beams;
     memset(sum, 0, n_tau * sizeof *sum);
     for (size_t k = 0; k < n_tau; k++) {
         scaled[k] = tau[k] * dom->stretch;
@@ -340,16 +351,16 @@ static void block_fluxes(const beam_block *block, size_t n_tau, const double *ta
     if (dom->order[0].n_series > 0) {
         sum_series(block, n_tau, scaled, sum);
     }
+    beams_at(block->n, dom->beams.q + block->first, n_tau, tau, scaled, &beams);
     for (size_t k = 0; k < n_tau; k++) {
-        beam_here beam;
-        beam_at(block->n, dom->beams.q + block->first, tau[k], scaled[k], &beam);
-        decays_at(&dom->order[0], scaled[k], w - scaled[k], &decays);
+        size_t here = k * block->n;
+        decays_at(&dom->order[0], scaled[k], w - scaled[k], decay);
         sum_exponentials(&dom->order[0], dom->beams.padded, block->first, block->n,
-                         &decays, beam.scaled, &sum[k]);
+                         decay, beams.scaled + here, &sum[k]);
         sum_special(block, scaled[k], &sum[k]);
         for (size_t l = 0; l < block->n; l++) {
-            flux[l * stride + k] =
-                flux_of_beam(block, l, tau[k], &sum[k], &beam, thin_scale[l]);
+            flux[l * stride + k] = flux_of_beam(block, l, tau[k], &sum[k], &beams,
+                                                here + l, thin_scale[l]);
         }
     }
 }

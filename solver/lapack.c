@@ -45,7 +45,7 @@ PPS_CLONES static bool small_cholesky(int n, double *a) {
         if (!(column[j] > 0)) {
             return false;
         }
-        double root = sqrt(column[j]), over = 1 / root;
+        double root = sqrt(column[j]), over = root * (1 / column[j]);
         for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
             four_to(column + i, four_at(column + i) * over);
         }
@@ -71,7 +71,7 @@ bool pps_cholesky(int n, double *a) {
 static void solve_column(int n, const double *restrict lower, double *restrict b) {
     for (int j = 0; j < n; j++) {
         const double *column = lower + j * n;
-        double bj = b[j] / column[j];
+        double bj = b[j] * (1 / column[j]); /* a quotient that need not wait for b */
         b[j] = bj;
         for (int i = j + 1; i < n; i++) {
             b[i] -= bj * column[i];
@@ -87,30 +87,51 @@ static void solve_column_transposed(int n, const double *restrict lower,
         for (int i = j + 1; i < n; i++) {
             sum -= column[i] * b[i];
         }
-        b[j] = sum / column[j];
+        b[j] = sum * (1 / column[j]);
     }
 }
 
-void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs,
-                     double *b) {
-    if (n <= SMALL || n_rhs == 1) {
-        for (int r = 0; r < n_rhs; r++) {
-            if (transposed) {
-                solve_column_transposed(n, lower, b + r * n);
-            } else {
-                solve_column(n, lower, b + r * n);
+/* B <- L^-T B, FOUR columns at a time. */
+PPS_CLONES static void small_solve_transposed(int n, const double *lower, int n_rhs,
+                                              double *b) {
+    for (int first = 0; first < n_rhs; first += FOUR) {
+        int columns = n_rhs - first < FOUR ? n_rhs - first : FOUR;
+        double *at = b + first * n, row[SMALL][FOUR] = {{0}};
+        for (int l = 0; l < columns; l++) {
+            for (int i = 0; i < n; i++) {
+                row[i][l] = at[i + l * n];
             }
         }
-        return;
+        for (int j = n - 1; j >= 0; j--) {
+            four sum = four_at(row[j]);
+            for (int i = j + 1; i < n; i++) {
+                sum -= lower[i + j * n] * four_at(row[i]);
+            }
+            four_to(row[j], sum * (1 / lower[j + j * n]));
+        }
+        for (int l = 0; l < columns; l++) {
+            for (int i = 0; i < n; i++) {
+                at[i + l * n] = row[i][l];
+            }
+        }
     }
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower,
-                transposed ? CblasTrans : CblasNoTrans, CblasNonUnit, n, n_rhs, 1,
-                lower, n, b, n);
 }
 
-void pps_lower_times(int n, const double *lower, int n_rhs, double *b) {
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n,
-                n_rhs, 1, lower, n, b, n);
+void pps_lower_solve(int n, const double *lower, bool transposed, double *b) {
+    if (transposed) {
+        solve_column_transposed(n, lower, b);
+    } else {
+        solve_column(n, lower, b);
+    }
+}
+
+void pps_lower_solve_transposed(int n, const double *lower, int n_rhs, double *b) {
+    if (n <= SMALL) {
+        small_solve_transposed(n, lower, n_rhs, b);
+        return;
+    }
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n, n_rhs,
+                1, lower, n, b, n);
 }
 
 void pps_qr_r(int n, double *a, double *work) {
@@ -123,10 +144,66 @@ void pps_qr_r(int n, double *a, double *work) {
     }
 }
 
+/* A or A^T in columns that are padded to whole blocks. */
+PPS_LANE void copy_padded(bool transposed, int n, int r, const double *a, int lda,
+                          double *copy) {
+    int across = transposed ? lda : 1, down = transposed ? 1 : lda;
+    for (int k = 0; k < r; k++) {
+        for (int i = 0; i < n; i++) {
+            copy[i + k * SMALL] = a[i * across + k * down];
+        }
+        for (int i = n; i % PPS_LANES != 0; i++) {
+            copy[i + k * SMALL] = 0;
+        }
+    }
+}
+
+PPS_CLONES static void small_multiply(bool transposed, int n, int cols, int r,
+                                      const double *a, int lda, const double *b,
+                                      int ldb, double *c, int ldc) {
+    double copy[SMALL * SMALL], spare[SMALL];
+    bool whole = n % PPS_LANES == 0; /* no block sticks out */
+    if (transposed || !whole) {
+        copy_padded(transposed, n, r, a, lda, copy);
+        a = copy;
+        lda = SMALL;
+    }
+    for (int j = 0; j < cols; j++) {
+        double *column = whole ? c + j * ldc : spare;
+        for (int i = 0; i < n; i += PPS_LANES) {
+            four low = {0}, high = {0};
+            for (int k = 0; k < r; k++) {
+                low += b[k + j * ldb] * four_at(a + i + k * lda);
+                high += b[k + j * ldb] * four_at(a + i + FOUR + k * lda);
+            }
+            four_to(column + i, low);
+            four_to(column + i + FOUR, high);
+        }
+        if (!whole) {
+            memcpy(c + j * ldc, spare, (size_t)n * sizeof *c);
+        }
+    }
+}
+
 void pps_multiply(bool transposed, int n, int cols, int r, const double *a, int lda,
                   const double *b, int ldb, double *c, int ldc) {
+    if (n <= SMALL && r <= SMALL) {
+        small_multiply(transposed, n, cols, r, a, lda, b, ldb, c, ldc);
+        return;
+    }
     cblas_dgemm(CblasColMajor, transposed ? CblasTrans : CblasNoTrans, CblasNoTrans, n,
                 cols, r, 1, a, lda, b, ldb, 0, c, ldc);
+}
+
+void pps_lower_times(int n, const double *lower, int n_rhs, double *b) {
+    if (n <= SMALL && n_rhs <= SMALL) {
+        double copy[SMALL * SMALL];
+        memcpy(copy, b, (size_t)(n * n_rhs) * sizeof *b);
+        small_multiply(false, n, n_rhs, n, lower, n, copy, n, b, n);
+        return;
+    }
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n,
+                n_rhs, 1, lower, n, b, n);
 }
 
 static void square_roots(int n, double *k) {

@@ -18,8 +18,9 @@ size_t pps_lapack_work(int n);
  * positive definite. */
 bool pps_cholesky(int n, double *a);
 
-/* B <- L^-1 B or L^-T B for lower triangular L. */
-void pps_lower_solve(int n, const double *lower, bool transposed, int n_rhs, double *b);
+/* b <- L^-1 b or L^-T b for lower triangular L and one column; B <- L^-T B for many. */
+void pps_lower_solve(int n, const double *lower, bool transposed, double *b);
+void pps_lower_solve_transposed(int n, const double *lower, int n_rhs, double *b);
 
 /* B <- L B for lower triangular L. */
 void pps_lower_times(int n, const double *lower, int n_rhs, double *b);

@@ -216,14 +216,14 @@ PPS_CLONES static void build_b(const pps_discrete *d, int m, eigen_scratch *s) {
 static void inverse_step(const pps_discrete *d, const eigen_scratch *s, double *y) {
     int n = d->n;
     const double *h = s->vector + n;
-    pps_lower_solve(n, s->lower, true, 1, y);
+    pps_lower_solve(n, s->lower, true, y);
     for (int i = 0; i < n; i++) {
         y[i] *= d->mu[i];
     }
     reflect(n, h, y);
     /* root holds C in rows and columns 1..; a unit entry at (0, 0) leaves y[0] alone. */
-    pps_lower_solve(n, s->root, false, 1, y);
-    pps_lower_solve(n, s->root, true, 1, y);
+    pps_lower_solve(n, s->root, false, y);
+    pps_lower_solve(n, s->root, true, y);
     for (int i = 1; i < n; i++) {
         y[i] *= d->co_albedo;
     }
@@ -231,30 +231,26 @@ static void inverse_step(const pps_discrete *d, const eigen_scratch *s, double *
     for (int i = 0; i < n; i++) {
         y[i] *= d->mu[i];
     }
-    pps_lower_solve(n, s->lower, false, 1, y);
+    pps_lower_solve(n, s->lower, false, y);
 }
 
-/* The smallest k of m = 0 to full relative accuracy: two inverse iterations and a
- * Rayleigh quotient through the exact factor. */
+/* The smallest k of m = 0 to full relative accuracy: one inverse iteration, and the
+ * Rayleigh quotient of the vector before it, whose error is the square of the vector's. */
 static void refine_smallest(const pps_discrete *d, eigen_scratch *s, double *k) {
     int n = d->n;
     double *y = s->y, *image = s->vector + 2 * n;
+    double before = 0, after = 0, product = 0;
     s->root[0] = 1;
-    for (int step = 0; step < 3; step++) {
-        double norm = 0, quotient = 0;
-        memcpy(image, y, (size_t)n * sizeof *y);
-        inverse_step(d, s, image);
-        for (int i = 0; i < n; i++) {
-            quotient += y[i] * image[i];
-            norm += image[i] * image[i];
-        }
-        if (step == 2) {
-            k[0] = sqrt(d->co_albedo / quotient);
-            return;
-        }
-        for (int i = 0; i < n; i++) {
-            y[i] = image[i] / sqrt(norm);
-        }
+    memcpy(image, y, (size_t)n * sizeof *y);
+    inverse_step(d, s, image);
+    for (int i = 0; i < n; i++) {
+        before += y[i] * y[i];
+        product += y[i] * image[i];
+        after += image[i] * image[i];
+    }
+    k[0] = sqrt(d->co_albedo * before / product);
+    for (int i = 0; i < n; i++) {
+        y[i] = image[i] / sqrt(after);
     }
 }
 
@@ -264,7 +260,7 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     double *ly = s->b, *z = s->y; /* L1 Y; L1^-T Y, which takes the place of Y */
     memcpy(ly, s->y, (size_t)n * (size_t)n * sizeof *ly);
     pps_lower_times(n, s->lower, n, ly);
-    pps_lower_solve(n, s->lower, true, n, z);
+    pps_lower_solve_transposed(n, s->lower, n, z);
     for (int j = 0; j < n; j++) {
         double sum = 0;
         for (int i = 0; i < n; i++) {
@@ -274,7 +270,9 @@ static void finish(pps_order *order, const pps_discrete *d, eigen_scratch *s) {
     }
     /* V = (p_l / mu)^T L1 Y for l + m even; W = p_l^T L1^-T Y for odd. */
     double *row = s->work;
-    node_functions(d, m, s->p);
+    if (m == 0) { /* H was applied to them */
+        node_functions(d, m, s->p);
+    }
     int stride = 2 * n;
     pps_multiply(true, order->n_odd, n, n, s->p + n, stride, z, n, order->w,
                  order->n_odd > 0 ? order->n_odd : 1);

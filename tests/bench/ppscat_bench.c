@@ -5,9 +5,11 @@
  * One thread, results in memory, CPU seconds, the least of several rounds. Single cases
  * are timed from nothing (create, solve, output, free) with an allocator that keeps its
  * pages; a sweep keeps what it may keep.
- * A target is a time on the machine it was set on, so `ratio` (target / ours) compares
- * machines too; side by side with other programs: scripts/bench-peers.sh. The second
- * table shows how much of a case is eigenproblems, and LAPACK's own time for them.
+ * Targets are multiples of cdisort's speed. Built with PPSCAT_CDISORT=FOLDER, the source of
+ * cdisort, it takes turns with ours, and `times` is what was measured; else its times are
+ * those of the machine that the targets were set on, and `times` compares machines too.
+ * Other programs: scripts/bench-peers.sh. The second table shows how much of a case is
+ * eigenproblems, and LAPACK's own time for them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #define _POSIX_C_SOURCE 200809L
@@ -26,6 +28,8 @@
 
 #include <ppscat/ppscat.h>
 
+#include "bench_cdisort.h"
+
 enum { ROUNDS = 9, N_DEPTHS = 10, N_MU = 16, N_PHI = 19, MOST_STREAMS = 64 };
 static const double ROUND_SECONDS = 0.05;
 
@@ -42,6 +46,14 @@ static void require(pps_status status) {
     }
 }
 
+/* Two programs that are timed against each other solve the same problem. */
+static void same(double ours, double theirs) {
+    if (!(fabs(ours - theirs) < 1e-6 * ours)) {
+        fprintf(stderr, "ppscat-bench: cdisort has %.9g, ppscat %.9g\n", theirs, ours);
+        exit(1);
+    }
+}
+
 static void *memory(size_t n, size_t size) {
     void *block = calloc(n, size);
     if (!block) {
@@ -50,19 +62,46 @@ static void *memory(size_t n, size_t size) {
     return block;
 }
 
-/* Seconds of one call of work(context): the least of ROUNDS means. */
-static double seconds(void (*work)(void *), void *context) {
-    double start = now(), best = HUGE_VAL;
-    work(context);
-    long repeats = 1 + (long)(ROUND_SECONDS / fmax(now() - start, 1e-7));
-    for (int round = 0; round < ROUNDS; round++) {
-        start = now();
-        for (long i = 0; i < repeats; i++) {
-            work(context);
-        }
-        best = fmin(best, (now() - start) / (double)repeats);
+typedef struct {
+    void (*run)(void *); /* NULL: nothing to time */
+    void *context;
+    long repeats;
+    double best;
+} job;
+
+static job job_of(void (*run)(void *), void *context) {
+    job j = {run, context, 1, run ? HUGE_VAL : (double)NAN};
+    if (run) {
+        double start = now();
+        run(context);
+        j.repeats += (long)(ROUND_SECONDS / fmax(now() - start, 1e-7));
     }
-    return best;
+    return j;
+}
+
+static void run_round(job *j) {
+    if (!j->run) {
+        return;
+    }
+    double start = now();
+    for (long i = 0; i < j->repeats; i++) {
+        j->run(j->context);
+    }
+    j->best = fmin(j->best, (now() - start) / (double)j->repeats);
+}
+
+/* Seconds of one run of each, the least of ROUNDS means, in turn. */
+static void take_turns(job *a, job *b) {
+    for (int round = 0; round < ROUNDS; round++) {
+        run_round(a);
+        run_round(b);
+    }
+}
+
+static double seconds(void (*run)(void *), void *context) {
+    job a = job_of(run, context), none = job_of(NULL, NULL);
+    take_turns(&a, &none);
+    return a.best;
 }
 
 /* ---- one case from nothing ---- */
@@ -76,6 +115,7 @@ typedef struct {
 } one_case;
 
 static const pps_slab slab = {.albedo = 0.95, .g = 0.5, .thickness = 10};
+static const double MU0 = 0.6;
 
 /* The discretisation of cdisort, all its orders: equal streams, equal sums. */
 static one_case *case_of(int streams, bool radiances) {
@@ -100,14 +140,26 @@ static void run_case(void *context) {
     one_case *c = context;
     pps_dom *dom;
     require(pps_dom_create(&slab, &c->opts, &dom));
-    require(pps_dom_solve(dom, 0.6));
+    require(pps_dom_solve(dom, MU0));
     if (c->radiances) {
         pps_grid at = {N_DEPTHS, N_MU, N_PHI, c->tau, c->mu, c->phi};
         require(pps_dom_radiance(dom, &at, c->radiance));
-    } else {
-        require(pps_dom_flux(dom, N_DEPTHS, c->tau, c->flux));
     }
+    require(pps_dom_flux(dom, N_DEPTHS, c->tau, c->flux));
     pps_dom_free(dom);
+}
+
+/* cdisort ready to solve the same case again and again, which must agree. */
+static bench_cdisort *cdisort_of(const one_case *c) {
+    size_t n_mu = c->radiances ? N_MU : 0;
+    pps_grid at = {N_DEPTHS, n_mu, N_PHI, c->tau, c->mu, c->phi};
+    bench_cdisort *theirs = bench_cdisort_create(c->opts.streams, &at);
+    if (theirs) {
+        bench_cdisort_set(theirs, &slab, MU0, c->tau);
+        bench_cdisort_solve(theirs);
+        same(c->flux[0].up, bench_cdisort_flux_up(theirs));
+    }
+    return theirs;
 }
 
 /* The eigenproblems of a case alone, with what is made of them. */
@@ -162,10 +214,18 @@ static void run_lapack(void *context) {
 enum { N_ALBEDO = 10, N_G = 3, N_THICKNESS = 8, N_MU0 = 10, N_SWEEP_DEPTHS = 5 };
 enum { SWEEP_STREAMS = 16, N_CASES = N_ALBEDO * N_G * N_THICKNESS * N_MU0 };
 
+static const double sweep_albedo[N_ALBEDO] = {0.1, 0.3,  0.5,  0.7,  0.8,
+                                              0.9, 0.95, 0.98, 0.99, 0.999};
+static const double sweep_g[N_G] = {0, 0.5, 0.75};
+static const double sweep_thickness[N_THICKNESS] = {0.1, 0.3, 1, 2, 5, 10, 30, 100};
+static const double sweep_mu0[N_MU0] = {0.08, 0.18, 0.28, 0.38, 0.48,
+                                        0.58, 0.68, 0.78, 0.88, 0.98};
+
 typedef struct {
     bool radiances;
     double phi[N_PHI];
-    double *radiance; /* of one slab: N_MU0 beams */
+    bench_cdisort *cdisort;
+    double *radiance; /* of all cases */
     pps_flux *flux;
 } sweep;
 
@@ -178,7 +238,16 @@ static sweep *sweep_of(bool radiances) {
     size_t n = radiances ? (size_t)N_CASES * N_SWEEP_DEPTHS * SWEEP_STREAMS * N_PHI : 1;
     s->radiance = memory(n, sizeof *s->radiance);
     s->flux = memory((size_t)N_CASES * N_SWEEP_DEPTHS, sizeof *s->flux);
+    pps_grid at = {N_SWEEP_DEPTHS, radiances ? SWEEP_STREAMS : 0, N_PHI, NULL, NULL,
+                   s->phi};
+    s->cdisort = bench_cdisort_create(SWEEP_STREAMS, &at);
     return s;
+}
+
+static void sweep_depths(double thickness, double *tau) {
+    for (int k = 0; k < N_SWEEP_DEPTHS; k++) {
+        tau[k] = thickness * k / (N_SWEEP_DEPTHS - 1);
+    }
 }
 
 /* All beams of a slab at once. */
@@ -186,21 +255,15 @@ static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radian
                        pps_flux **flux) {
     double tau[N_SWEEP_DEPTHS], mu[SWEEP_STREAMS], weight[SWEEP_STREAMS / 2];
     double *node = mu + SWEEP_STREAMS / 2;
-    for (int k = 0; k < N_SWEEP_DEPTHS; k++) {
-        tau[k] = thickness * k / (N_SWEEP_DEPTHS - 1);
-    }
+    sweep_depths(thickness, tau);
     require(pps_dom_nodes(dom, node, weight));
     for (int j = 0; j < SWEEP_STREAMS / 2; j++) {
         mu[j] = -mu[SWEEP_STREAMS - 1 - j];
     }
     pps_grid at = {N_SWEEP_DEPTHS, SWEEP_STREAMS, N_PHI, tau, mu, s->phi};
     require(pps_dom_set_thickness(dom, thickness));
-    double mu0[N_MU0];
-    for (int i = 0; i < N_MU0; i++) {
-        mu0[i] = 0.08 + 0.1 * i;
-    }
     require(pps_dom_set_directions(dom, s->radiances ? SWEEP_STREAMS : 0, mu));
-    require(pps_dom_solve_beams(dom, N_MU0, mu0));
+    require(pps_dom_solve_beams(dom, N_MU0, sweep_mu0));
     require(pps_dom_flux(dom, N_SWEEP_DEPTHS, tau, *flux));
     *flux += N_MU0 * N_SWEEP_DEPTHS;
     if (s->radiances) {
@@ -210,28 +273,44 @@ static void sweep_slab(sweep *s, pps_dom *dom, double thickness, double **radian
 }
 
 static void run_sweep(void *context) {
-    static const double thickness[N_THICKNESS] = {0.1, 0.3, 1, 2, 5, 10, 30, 100};
-    static const double albedo[N_ALBEDO] = {0.1, 0.3,  0.5,  0.7,   0.8,
-                                            0.9, 0.95, 0.99, 0.999, 1};
-    static const double g[N_G] = {0, 0.5, 0.75};
     sweep *s = context;
     double *radiance = s->radiance;
     pps_flux *flux = s->flux;
     for (int a = 0; a < N_ALBEDO; a++) {
         for (int i = 0; i < N_G; i++) {
-            pps_slab medium = {albedo[a], g[i], 1};
+            pps_slab medium = {sweep_albedo[a], sweep_g[i], 1};
             pps_dom_opts opts = {.streams = SWEEP_STREAMS,
                                  .nodes = PPS_NODES_GAUSS,
                                  .orders = s->radiances ? SWEEP_STREAMS : 1};
-            if (g[i] == 0) {
+            if (sweep_g[i] == 0) {
                 opts.orders = 1; /* nobody sums orders that are zero */
             }
             pps_dom *dom;
             require(pps_dom_create(&medium, &opts, &dom));
             for (int t = 0; t < N_THICKNESS; t++) {
-                sweep_slab(s, dom, thickness[t], &radiance, &flux);
+                sweep_slab(s, dom, sweep_thickness[t], &radiance, &flux);
             }
             pps_dom_free(dom);
+        }
+    }
+}
+
+/* cdisort takes one case after the other, and at g = 0 ends the orders by itself. */
+static void run_cdisort_sweep(void *context) {
+    sweep *s = context;
+    double tau[N_SWEEP_DEPTHS];
+    const pps_flux *flux = s->flux;
+    for (int a = 0; a < N_ALBEDO; a++) {
+        for (int i = 0; i < N_G; i++) {
+            for (int t = 0; t < N_THICKNESS; t++) {
+                pps_slab medium = {sweep_albedo[a], sweep_g[i], sweep_thickness[t]};
+                sweep_depths(sweep_thickness[t], tau);
+                for (int b = 0; b < N_MU0; b++, flux += N_SWEEP_DEPTHS) {
+                    bench_cdisort_set(s->cdisort, &medium, sweep_mu0[b], tau);
+                    bench_cdisort_solve(s->cdisort);
+                    same(flux->up, bench_cdisort_flux_up(s->cdisort));
+                }
+            }
         }
     }
 }
@@ -263,48 +342,68 @@ static void run_closed(void *context) {
 
 static FILE *csv;
 
-static void row(const char *work, int streams, double ours, double target,
-                double cdisort) {
-    printf("%-36s %4d %11.4g %11.4g %7.2f %11.4g\n", work, streams, 1e6 * ours,
-           1e6 * target, target / ours, 1e6 * cdisort);
+/* cdisort: the job, else its seconds on another machine. */
+static void row(const char *work, int streams, int n_cases, job ours, job cdisort,
+                double cdisort_seconds, double asked) {
+    take_turns(&ours, &cdisort);
+    double a = ours.best / n_cases,
+           b = cdisort.run ? cdisort.best / n_cases : cdisort_seconds;
+    printf("%-36s %4d %11.4g %11.4g %7.1f %7.0f\n", work, streams, 1e6 * a, 1e6 * b,
+           b / a, asked);
     if (csv) {
-        fprintf(csv, "%s,%d,%.17g,%.17g,%.17g\n", work, streams, ours, target, cdisort);
+        fprintf(csv, "%s,%d,%.17g,%.17g,%.0f\n", work, streams, a, b, asked);
     }
 }
 
-/* cdisort 2.1.3 and the targets, seconds: figures of the machine they were set on. */
-static void targets(void) {
-    static const struct {
-        int streams;
-        bool radiances;
-        double cdisort, times;
-    } cases[] = {{16, false, 18.6e-6, 4}, {32, false, 75e-6, 4},
-                 {64, false, 370e-6, 7},  {16, true, 1.89e-3, 20},
-                 {32, true, 5.3e-3, 10},  {64, true, 22e-3, 10}};
-    printf("%-36s %4s %11s %11s %7s %11s\n", "work (us)", "n", "ours", "target",
-           "ratio", "cdisort");
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        one_case *c = case_of(cases[i].streams, cases[i].radiances);
-        row(cases[i].radiances ? "one case: radiances 10 x 16 x 19"
-                               : "one case: fluxes at 10 depths",
-            cases[i].streams, seconds(run_case, c), cases[i].cdisort / cases[i].times,
-            cases[i].cdisort);
-        free(c);
-    }
-    for (int radiances = 0; radiances < 2; radiances++) {
-        sweep *s = sweep_of(radiances);
-        double cdisort = radiances ? 690e-6 : 14.8e-6;
-        row(radiances ? "2400 cases: radiances 5 x 16 x 19" : "2400 cases: fluxes",
-            SWEEP_STREAMS, seconds(run_sweep, s) / N_CASES,
-            cdisort / (radiances ? 60 : 40), cdisort);
-        free(s->radiance);
-        free(s->flux);
-        free(s);
-    }
-    closed_form *c = hemispheric();
-    row("hemispheric fluence, one depth", 0, seconds(run_closed, c) / N_FLUENCES, 5e-9,
-        (double)NAN);
+static void case_row(int streams, bool radiances, double cdisort_seconds,
+                     double asked) {
+    one_case *c = case_of(streams, radiances);
+    job ours = job_of(run_case, c);
+    bench_cdisort *theirs = cdisort_of(c);
+    job cdisort = job_of(theirs ? bench_cdisort_solve : NULL, theirs);
+    row(radiances ? "one case: radiances 10 x 16 x 19"
+                  : "one case: fluxes at 10 depths",
+        streams, 1, ours, cdisort, cdisort_seconds, asked);
+    bench_cdisort_free(theirs);
     free(c);
+}
+
+static void sweep_row(bool radiances, double cdisort_seconds, double asked) {
+    sweep *s = sweep_of(radiances);
+    job ours = job_of(run_sweep, s);
+    job cdisort = job_of(s->cdisort ? run_cdisort_sweep : NULL, s);
+    row(radiances ? "2400 cases: radiances 5 x 16 x 19" : "2400 cases: fluxes",
+        SWEEP_STREAMS, N_CASES, ours, cdisort, cdisort_seconds, asked);
+    bench_cdisort_free(s->cdisort);
+    free(s->radiance);
+    free(s->flux);
+    free(s);
+}
+
+static void closed_row(void) {
+    closed_form *c = hemispheric();
+    double each = seconds(run_closed, c) / N_FLUENCES;
+    printf("\nhemispheric fluence: %.0f million evaluations a second (asked: 200)\n",
+           1e-6 / each);
+    if (csv) {
+        fprintf(csv, "hemispheric fluence,0,%.17g,,\n", each);
+    }
+    free(c);
+}
+
+/* cdisort's seconds: those of the machine where the targets were set. */
+static void targets(void) {
+    printf("%-36s %4s %11s %11s %7s %7s\n", "work (us)", "n", "ours", "cdisort",
+           "times", "asked");
+    case_row(16, false, 18.6e-6, 4);
+    case_row(32, false, 75e-6, 4);
+    case_row(64, false, 370e-6, 7);
+    case_row(16, true, 1.89e-3, 20);
+    case_row(32, true, 5.3e-3, 10);
+    case_row(64, true, 22e-3, 10);
+    sweep_row(false, 14.8e-6, 40);
+    sweep_row(true, 690e-6, 60);
+    closed_row();
 }
 
 static void eigenproblems(void) {
@@ -343,7 +442,7 @@ int main(int argc, char **argv) {
             perror(argv[1]);
             return 1;
         }
-        fprintf(csv, "work,streams,seconds,target_seconds,cdisort_seconds\n");
+        fprintf(csv, "work,streams,seconds,cdisort_seconds,asked\n");
     }
     targets();
     eigenproblems();
