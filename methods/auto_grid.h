@@ -16,6 +16,7 @@
     X("eddington", 0, 66)                                                              \
     X("spp-refined", 0, 140)                                                           \
     X("fourstream", 0, 83)                                                             \
+    X("exact", 4, 11)                                                                  \
     X("exact", 8, 20)                                                                  \
     X("exact", 12, 36)                                                                 \
     X("exact", 16, 55)                                                                 \
@@ -29,10 +30,12 @@
 /* What is kept of an error. */
 enum { PPS_AUTO_FIELD, PPS_AUTO_REFLECTANCE, PPS_AUTO_TRANSMITTANCE, PPS_AUTO_METRICS };
 
-/* Grid lines, ascending; the last thickness also stands for all above and a half-space. */
+/* Grid lines, ascending; the last thickness also stands for all above and a half-space.
+ * At thickness 0.1 and 1 `exact` takes other nodes and its errors jump: a line either side. */
 static const double pps_auto_albedo[] = {0, 0.5, 0.8, 0.9, 0.95, 0.99, 0.999, 1};
 static const double pps_auto_g[] = {-0.8, -0.5, 0, 0.3, 0.5, 0.65, 0.8, 0.9};
-static const double pps_auto_thickness[] = {0.01, 0.05, 0.2, 0.6, 2, 5, 10, 30, 200};
+static const double pps_auto_thickness[] = {0.01, 0.05, 0.0999, 0.1, 0.3, 0.999,
+                                            1,    2.5,  5,      10,  30,  200};
 static const double pps_auto_mu0[] = {0.05, 0.12, 0.25, 0.5, 0.75, 1};
 
 enum {

@@ -1,7 +1,7 @@
 /* Makes data/auto_errors.csv, the errors of every candidate of the method `auto` over a
  * grid of slabs, against `exact` at 1e-7, or with 192 streams where it refuses:
  *
- *     cmake --build build/release --target auto-table      (10 minutes on one core)
+ *     cmake --build build/release --target auto-table      (2 minutes on one core)
  *
  * One row a slab: albedo,g,thickness,mu0,rms_rel,reflectance,transmittance, the last three
  * with one character a candidate (methods/auto_grid.h says which and how). rms_rel is that

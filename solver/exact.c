@@ -21,6 +21,8 @@ static const int ladder[] = {12,  16,  24,  32,  48,  64,  96,
                              128, 192, 256, 384, 512, 768, 1024};
 enum { N_LADDER = sizeof ladder / sizeof ladder[0] };
 
+static const double PI = 3.14159265358979323846;
+
 /* With many azimuthal orders the last rungs would take minutes. */
 enum { MOST_STREAMS_RADIANCE = 256 };
 
@@ -336,8 +338,39 @@ static pps_status fluxes_at_once(exact *e, const request *what, pps_flux *flux) 
     return status ? status : pps_dom_flux(dom, what->n_tau, what->tau, flux);
 }
 
+/* ---- without scattering ---- */
+
+/* At albedo 0 there is the beam and nothing else: no streams, no error. (The sky is left
+ * to the streams, as its fluxes are integrals over directions.) */
+static void beams_alone(exact *e, const request *what, double *answer) {
+    pps_flux *flux = (pps_flux *)(void *)answer;
+    if (e->opts.streams > 0) {
+        describe(e, e->opts.streams);
+        e->info.orders = 1;
+    } else {
+        e->info = (pps_info){.error_estimate = 0};
+    }
+    if (what->at) {
+        memset(answer, 0, e->n_beams * what->n * sizeof *answer);
+        return;
+    }
+    for (size_t b = 0; b < e->n_beams; b++) {
+        double mu0 = e->n_beams > 1 ? e->beams[b] : e->mu0;
+        for (size_t k = 0; k < what->n_tau; k++) {
+            double direct = exp(-what->tau[k] / mu0);
+            *flux++ = (pps_flux){.direct = mu0 * direct, .mean = direct / (4 * PI)};
+        }
+    }
+}
+
+/* ---- all together ---- */
+
 static pps_status produce(exact *e, const request *what, double *answer) {
     e->info.error_estimate = (double)NAN;
+    if (e->slab.albedo == 0 && !e->sky) {
+        beams_alone(e, what, answer);
+        return PPS_OK;
+    }
     if (e->opts.streams > 0) {
         /* Given streams: the azimuth series to rounding. */
         if (e->n_beams > 1) {

@@ -212,7 +212,7 @@ static double flux_down(const pps_dom *dom, size_t b, double tau, double flux,
     if (tau <= 0) {
         return dom->beams.sky ? PI : 0; /* what falls in */
     }
-    return fabs(flux) > CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, 1);
+    return fabs(flux) >= CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, 1);
 }
 
 static double flux_up(const pps_dom *dom, size_t b, double tau, double flux,
@@ -220,7 +220,7 @@ static double flux_up(const pps_dom *dom, size_t b, double tau, double flux,
     if (tau >= pps_dom_scaled_thickness(dom)) {
         return 0; /* nothing comes up from below */
     }
-    return fabs(flux) > CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, -1);
+    return fabs(flux) >= CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, -1);
 }
 
 /* Thin slabs. Single scattering dominates there, and directions mu ~ thickness, which no

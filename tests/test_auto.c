@@ -209,12 +209,46 @@ static void a_case_has_one_answer_whatever_came_before(void **state) {
     pps_model_free(model);
 }
 
+/* Nothing scatters: the beam is all there is, and no stream is spent on it. */
+static void albedo_0_takes_no_streams(void **state) {
+    (void)state;
+    static const double gs[] = {-0.9, 0, 0.95};
+    static const double ws[] = {1e-6, 0.05, 10, (double)INFINITY};
+    for (int i = 0; i < 12; i++) {
+        double w = ws[i % 4], last = fmin(w, 20), tau[N_TAU] = {0, last / 2, last};
+        double radiance[N_BLOCK], mu0 = 0.3;
+        pps_grid at = {N_TAU, N_MU, N_PHI, tau, mus, phis};
+        pps_flux flux[N_TAU];
+        pps_info info;
+        pps_model *model = create(0, gs[i / 4], 1e-10);
+        assert_int_equal(pps_model_solve(model, w, mu0), PPS_OK);
+        assert_int_equal(pps_model_radiance(model, &at, radiance), PPS_OK);
+        pps_model_query(model, &info);
+        assert_int_equal(info.streams + info.orders, 0);
+        assert_true(info.error_estimate == 0);
+        assert_int_equal(pps_model_flux(model, N_TAU, tau, flux), PPS_OK);
+        pps_model_query(model, &info);
+        assert_int_equal(info.streams + info.orders, 0);
+        for (int k = 0; k < N_BLOCK; k++) {
+            assert_true(radiance[k] == 0);
+        }
+        for (int k = 0; k < N_TAU; k++) {
+            assert_true(flux[k].up == 0 && flux[k].down == 0);
+            assert_true(flux[k].mean_diffuse == 0);
+            assert_close(flux[k].direct, mu0 * exp(-tau[k] / mu0), 1e-15, 0);
+            assert_close(flux[k].mean, flux[k].direct / mu0 / (16 * atan(1)), 1e-15, 0);
+        }
+        pps_model_free(model);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tolerance_is_met_on_the_reference_radiances),
         cmocka_unit_test(tolerance_is_met_for_peaked_phase_functions),
         cmocka_unit_test(flux_tolerance_is_met_in_thin_and_thick_slabs),
         cmocka_unit_test(unreachable_tolerance_is_refused),
+        cmocka_unit_test(albedo_0_takes_no_streams),
         cmocka_unit_test(a_case_has_one_answer_whatever_came_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

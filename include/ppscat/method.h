@@ -52,7 +52,7 @@ typedef struct pps_options {
 
 /* What a method used for the last output. */
 typedef struct pps_info {
-    int streams, orders; /* 0 where the method has none */
+    int streams, orders; /* 0 where it has none, or needs none (albedo 0) */
     pps_nodes nodes;
     bool delta_m;          /* the forward peak was scaled */
     double error_estimate; /* relative, as `tolerance`; NAN where the method has none */
