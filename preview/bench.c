@@ -1,4 +1,5 @@
-/* Times of the system's steps and of frames while the sun goes round.
+/* Times of the system's steps and of frames while the sun goes round; frames with and
+ * without what makes them fast.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/bench.h"
@@ -11,73 +12,143 @@
 #include "preview/offscreen.h"
 #include "preview/stage_open.h"
 
-enum { ROUND = 8 };
+enum { ROUND = 4 };
+static const double DEGREE = 3.14159265358979323846 / 180, EYES = 1.7;
 
-static double now(void) {
+/* Seconds on the clock, and of all the program's threads. */
+typedef struct {
+    double wall, cpu;
+} duration;
+
+static double read_clock(clockid_t clock) {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Mean times over a round of the sun at its own height. */
-typedef struct {
-    double cells, maps, frames;
-} round_times;
+static duration now(void) {
+    return (duration){read_clock(CLOCK_MONOTONIC),
+                      read_clock(CLOCK_PROCESS_CPUTIME_ID)};
+}
 
-static bool go_round(stage *s, const preview_options *options, const frame *f,
-                     round_times *mean, pps_problem *problem) {
-    pps_camera camera;
-    const double *to = s->scene->sun.to;
-    double elevation = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
-    pps_camera_fit(s->scene, options->view[0], options->view[1],
-                   (double)f->width / f->height, &camera);
-    *mean = (round_times){0};
+typedef struct {
+    stage *stage;
+    const preview_options *options;
+    frame frame;
+    pps_camera outside, within;
+} bench;
+
+/* ---- rows ---- */
+
+static void print_row(const bench *b, int step, const char *work, duration t) {
+    const stage *s = b->stage;
+    printf("%d,%s,%.3f,%.3f,%.4g,%zu,%zu,%zu,%d,%d,%d,\"%s\"\n", step, work,
+           1000 * t.wall, 1000 * t.cpu, t.wall > 0 ? 1 / t.wall : 0,
+           s->scene->n_instances, s->n_triangles, s->system ? s->system->n_cells : 0,
+           b->frame.width, b->frame.height, b->options->samples,
+           (const char *)glGetString(GL_RENDERER));
+    fflush(stdout);
+}
+
+static void print_steps(const bench *b) {
+    static const char *const work[] = {"cells", "maps", "depths and G", "sky"};
+    for (int i = 0; i < 4; i++) {
+        print_row(b, i + 1, work[i],
+                  (duration){b->stage->seconds[i], b->stage->seconds[i]});
+    }
+}
+
+/* ---- frames ---- */
+
+static duration draw(const bench *b, const pps_camera *camera, stage_look look) {
+    duration start = now();
+    frame_begin(&b->frame);
+    stage_draw(b->stage, camera, b->frame.width, b->frame.height, &look);
+    frame_finish(&b->frame);
+    glFinish();
+    duration end = now();
+    return (duration){end.wall - start.wall, end.cpu - start.cpu};
+}
+
+static void add(duration *sum, duration t, double share) {
+    sum->wall += share * t.wall;
+    sum->cpu += share * t.cpu;
+}
+
+/* Means over a round of the sun at its own height. */
+static bool go_round(const bench *b, pps_problem *problem) {
+    stage *s = b->stage;
+    double elevation = asin(fmin(fmax(s->scene->sun.to[2], -1), 1)) / DEGREE;
+    duration light = {0, 0}, maps = {0, 0}, frames = {0, 0};
     for (int i = 0; i < ROUND; i++) {
         turn_sun(s->scene, 360.0 * i / ROUND, fmax(elevation, 5));
+        duration start = now();
         if (!stage_light_sun(s, problem)) {
             return false;
         }
-        double start = now();
-        frame_begin(f);
-        stage_draw(s, &camera, f->width, f->height, options->show);
-        frame_finish(f);
-        glFinish();
-        mean->frames += (now() - start) / ROUND;
-        mean->cells += s->seconds[4] / ROUND;
-        mean->maps += s->seconds[5] / ROUND;
+        double cpu = now().cpu - start.cpu, wall = s->seconds[4] + s->seconds[5];
+        add(&light, (duration){s->seconds[4], cpu * s->seconds[4] / wall}, 1.0 / ROUND);
+        add(&maps, (duration){s->seconds[5], cpu * s->seconds[5] / wall}, 1.0 / ROUND);
+        add(&frames, draw(b, &b->outside, b->options->look), 1.0 / ROUND);
     }
-    return gl_check("drawing", problem);
+    print_row(b, 5, "sun", light);
+    print_row(b, 5, "maps of the sun on the GPU", maps);
+    print_row(b, 6, "frame", frames);
+    return true;
 }
 
-static void print(const stage *s, const preview_options *options,
-                  const round_times *mean) {
-    static const char *const step[] = {"1 cells", "2 maps", "3 G-factors", "4 sky"};
-    printf("step,seconds\n");
-    for (int i = 0; i < 4; i++) {
-        printf("%s,%.6f\n", step[i], s->seconds[i]);
+/* From outside, all in view, and from within: with every plant and leaf, with those in
+ * view, and with fewer leaves where they are small. The first frame of each is not
+ * counted. */
+static void leave_out(const bench *b) {
+    double detail = b->options->look.detail > 0 ? b->options->look.detail : 2;
+    stage_show show = b->options->look.show;
+    const stage_look look[] = {{show, 0, true}, {show, 0, false}, {show, detail, false}};
+    static const char *const name[] = {"every plant and leaf", "plants in view",
+                                       "fewer leaves"};
+    static const char *const place[] = {"outside", "within"};
+    for (int k = 0; k < 6; k++) {
+        const pps_camera *camera = k < 3 ? &b->outside : &b->within;
+        char work[80];
+        snprintf(work, sizeof work, "frame from %s: %s", place[k / 3], name[k % 3]);
+        draw(b, camera, look[k % 3]);
+        print_row(b, 6, work, draw(b, camera, look[k % 3]));
     }
-    printf("5 sun,%.6f\n5 sun's maps on the GPU,%.6f\n6 frame,%.6f\n", mean->cells,
-           mean->maps, mean->frames);
-    fprintf(
-        stderr,
-        "ppscat-preview: %zu instances, %zu triangles, %zu cells, %d x %d pixels, %d "
-        "samples; %s\n",
-        s->scene->n_instances, s->n_triangles, s->system ? s->system->n_cells : 0,
-        options->width, options->height, options->samples,
-        (const char *)glGetString(GL_RENDERER));
+}
+
+/* In the middle of the scene, eyes above what is lowest, looking as the view does. */
+static void stand_within(bench *b) {
+    const pps_box *box = &b->stage->box;
+    double a = b->options->view[0] * DEGREE;
+    b->within = (pps_camera){.up = {0, 0, 1}, .field_of_view = 50};
+    for (int i = 0; i < 3; i++) {
+        b->within.eye[i] =
+            i < 2 ? (box->low[i] + box->high[i]) / 2 : box->low[i] + EYES;
+        b->within.target[i] = b->within.eye[i];
+    }
+    b->within.target[0] -= 10 * cos(a);
+    b->within.target[1] -= 10 * sin(a);
+    b->within.target[2] += 1;
 }
 
 static int measure(stage *s, const preview_options *options, pps_problem *problem) {
-    frame f;
-    round_times mean;
-    if (!frame_create(options->width, options->height, options->samples, &f, problem)) {
+    bench b = {.stage = s, .options = options};
+    if (!frame_create(options->width, options->height, options->samples, &b.frame,
+                      problem)) {
         return EXIT_FAILED;
     }
-    bool good = go_round(s, options, &f, &mean, problem);
-    frame_free(&f);
+    pps_camera_fit(s->scene, options->view[0], options->view[1],
+                   (double)options->width / options->height, &b.outside);
+    stand_within(&b);
+    printf("step,work,ms,cpu_ms,per_second,instances,triangles,cells,width,height,"
+           "samples,renderer\n");
+    print_steps(&b);
+    bool good = go_round(&b, problem);
     if (good) {
-        print(s, options, &mean);
+        leave_out(&b);
+        good = gl_check("drawing", problem);
     }
+    frame_free(&b.frame);
     return good ? EXIT_DONE : EXIT_FAILED;
 }
 

@@ -6,7 +6,8 @@
 
 #include "preview/options.h"
 
-/* Open OpenGL and the scene, and print CSV: step,seconds. An exit code, its problem. */
+/* Open OpenGL and the scene, and print CSV: step,work,ms,... (docs/preview.md). An exit
+ * code, its problem. */
 int bench_run(const preview_options *options, pps_problem *problem);
 
 #endif

@@ -90,7 +90,7 @@ static void draw_groups(const gpu_maps *maps, GLuint program, const gpu_mesh *me
                      group->texture ? group->material->alpha_min : 0);
         gl_set_float(program, "weight", group->leaf ? 1 : wood);
         (group->leaf ? glDisable : glEnable)(GL_CULL_FACE);
-        glDrawArrays(GL_TRIANGLES, group->first, group->count);
+        gpu_group_draw(group, 0, 1);
     }
     glDisable(GL_CULL_FACE);
     glBindSampler(0, 0);

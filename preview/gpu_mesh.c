@@ -1,4 +1,4 @@
-/* Meshes to vertex buffers.
+/* Meshes to vertex and index buffers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/gpu_mesh.h"
@@ -9,9 +9,18 @@
 #include <string.h>
 
 typedef struct {
-    float position[3], normal[3], place[2];
+    float position[3], normal[3], place[2], center[3];
     uint32_t leaf;
 } vertex;
+
+/* What is filled: vertices, indices, and which vertex was last made of each of the mesh's. */
+typedef struct {
+    const pps_mesh *mesh;
+    double (*sum)[3]; /* of normals about each of the mesh's vertices */
+    vertex *vertex;
+    uint32_t *index, *made; /* made: plus 1 */
+    size_t n_vertices, n_indices;
+} filling;
 
 static const double CREASE = 0.4; /* cosine: sharper edges than this stay sharp */
 
@@ -64,47 +73,114 @@ static void corner_normal(const double own[3], const double sum[3], float out[3]
 
 /* ---- vertices ---- */
 
-static void add_triangle(const pps_mesh *mesh, size_t t, const double (*sum)[3],
-                         vertex *out) {
+static void put_vertex(const filling *f, size_t t, int corner, const double own[3],
+                       vertex *out) {
+    const pps_mesh *mesh = f->mesh;
+    uint32_t v = mesh->triangle[t][corner], leaf = mesh->leaf_of[t];
+    const double *center =
+        leaf == PPS_NO_LEAF ? mesh->position[v] : mesh->leaf[leaf].center;
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < 3; k++) {
+        out->position[k] = (float)mesh->position[v][k];
+        out->center[k] = (float)center[k];
+    }
+    corner_normal(own, f->sum[v], out->normal);
+    out->place[0] = mesh->uv ? mesh->uv[v][0] : 0;
+    out->place[1] = mesh->uv ? mesh->uv[v][1] : 0;
+    out->leaf = leaf;
+}
+
+/* A corner that is as the last one made of its vertex is the same. */
+static void add_triangle(filling *f, size_t t) {
     double own[3];
-    triangle_normal(mesh, t, own);
+    triangle_normal(f->mesh, t, own);
     normalize(own);
     for (int i = 0; i < 3; i++) {
-        uint32_t v = mesh->triangle[t][i];
-        for (int k = 0; k < 3; k++) {
-            out[i].position[k] = (float)mesh->position[v][k];
+        uint32_t v = f->mesh->triangle[t][i];
+        vertex *fresh = &f->vertex[f->n_vertices];
+        put_vertex(f, t, i, own, fresh);
+        if (!f->made[v] ||
+            memcmp(fresh, &f->vertex[f->made[v] - 1], sizeof *fresh) != 0) {
+            f->made[v] = (uint32_t)++f->n_vertices;
         }
-        corner_normal(own, sum[v], out[i].normal);
-        out[i].place[0] = mesh->uv ? mesh->uv[v][0] : 0;
-        out[i].place[1] = mesh->uv ? mesh->uv[v][1] : 0;
-        out[i].leaf = mesh->leaf_of[t];
+        f->index[f->n_indices++] = f->made[v] - 1;
+    }
+}
+
+/* A step through n leaves that meets each once, and after any number of steps has met them
+ * evenly: about the golden ratio of n, without a factor in common. */
+static size_t even_step(size_t n) {
+    size_t step = (size_t)(0.6180339887 * (double)n) | 1;
+    for (;; step++) {
+        size_t a = n, b = step;
+        while (b) {
+            size_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1) {
+            return step;
+        }
+    }
+}
+
+/* Leaves of a material, in an even order; where each level ends. */
+static void add_leaves(filling *f, size_t material, gpu_group *group) {
+    const pps_mesh *mesh = f->mesh;
+    size_t step = even_step(mesh->n_leaves), first = f->n_indices, n = 0, m = 0;
+    double area = 0, part = 0;
+    for (size_t i = 0; i < mesh->n_leaves; i++) {
+        bool here = mesh->leaf[i].material == material;
+        n += here;
+        area += here ? mesh->leaf[i].area : 0;
+    }
+    for (size_t k = 0, i = 0; k < mesh->n_leaves; k++, i = (i + step) % mesh->n_leaves) {
+        const pps_leaf *leaf = &mesh->leaf[i];
+        if (leaf->material != material) {
+            continue;
+        }
+        for (uint32_t t = 0; t < leaf->n_triangles; t++) {
+            add_triangle(f, leaf->first + t);
+        }
+        part += leaf->area;
+        m++;
+        for (int level = 0; level < GPU_LEVELS; level++) {
+            if (m == (n + ((size_t)1 << level) - 1) >> level) {
+                group->count[level] = (GLsizei)(f->n_indices - first);
+                group->grow[level] = part > 0 ? sqrt(area / part) : 1;
+            }
+        }
+    }
+}
+
+static void add_wood(filling *f, size_t material, gpu_group *group) {
+    size_t first = f->n_indices;
+    for (size_t t = 0; t < f->mesh->n_triangles; t++) {
+        if (f->mesh->material_of[t] == material && f->mesh->leaf_of[t] == PPS_NO_LEAF) {
+            add_triangle(f, t);
+        }
+    }
+    for (int level = 0; level < GPU_LEVELS; level++) {
+        group->count[level] = (GLsizei)(f->n_indices - first);
+        group->grow[level] = 1;
     }
 }
 
 /* Triangles in groups of leaf or wood and of one material. */
-static void group_triangles(gpu_mesh *out, const double (*sum)[3], vertex *all) {
+static void group_triangles(gpu_mesh *out, filling *f) {
     const pps_mesh *mesh = out->mesh;
-    size_t n = 0;
     for (size_t g = 0; g < 2 * mesh->n_materials; g++) {
         bool leaf = g < mesh->n_materials;
-        size_t m = g % mesh->n_materials, first = n;
-        for (size_t t = 0; t < mesh->n_triangles; t++) {
-            if (mesh->material_of[t] == m &&
-                leaf == (mesh->leaf_of[t] != PPS_NO_LEAF)) {
-                add_triangle(mesh, t, sum, all + n);
-                n += 3;
-            }
-        }
-        if (n > first) {
-            const pps_material *material = &mesh->material[m];
-            out->group[out->n_groups++] = (gpu_group){
-                .material = material,
-                .texture = material->texture >= 0 ? out->texture[material->texture] : 0,
-                .mean = {1, 1, 1},
-                .first = (GLint)first,
-                .count = (GLsizei)(n - first),
-                .leaf = leaf};
-        }
+        const pps_material *material = &mesh->material[g % mesh->n_materials];
+        gpu_group *group = &out->group[out->n_groups];
+        *group = (gpu_group){
+            .material = material,
+            .texture = material->texture >= 0 ? out->texture[material->texture] : 0,
+            .mean = {1, 1, 1},
+            .first = (GLintptr)(f->n_indices * sizeof *f->index),
+            .leaf = leaf};
+        (leaf ? add_leaves : add_wood)(f, g % mesh->n_materials, group);
+        out->n_groups += group->count[0] > 0;
     }
 }
 
@@ -115,7 +191,8 @@ static void describe_vertices(void) {
         size_t offset;
     } row[] = {{AT_POSITION, 3, offsetof(vertex, position)},
                {AT_NORMAL, 3, offsetof(vertex, normal)},
-               {AT_TEXTURE, 2, offsetof(vertex, place)}};
+               {AT_TEXTURE, 2, offsetof(vertex, place)},
+               {AT_CENTER, 3, offsetof(vertex, center)}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         glVertexAttribPointer(row[i].at, row[i].n, GL_FLOAT, GL_FALSE, sizeof(vertex),
                               (const char *)NULL + row[i].offset);
@@ -170,24 +247,46 @@ static pps_status upload(const pps_texture *t, GLuint texture) {
 
 /* ---- life ---- */
 
+static void upload_filling(const filling *f, gpu_mesh *out) {
+    glGenVertexArrays(1, &out->vertices);
+    glGenBuffers(1, &out->buffer);
+    glGenBuffers(1, &out->indices);
+    glBindVertexArray(out->vertices);
+    glBindBuffer(GL_ARRAY_BUFFER, out->buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(f->n_vertices * sizeof *f->vertex),
+                 f->vertex, GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, out->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(f->n_indices * sizeof *f->index),
+                 f->index, GL_STATIC_DRAW);
+    describe_vertices();
+    glBindVertexArray(0);
+}
+
+static void measure_leaves(gpu_mesh *out) {
+    double area = 0;
+    for (size_t i = 0; i < out->mesh->n_leaves; i++) {
+        area += out->mesh->leaf[i].area;
+    }
+    out->leaf_size = out->mesh->n_leaves ? sqrt(area / (double)out->mesh->n_leaves) : 0;
+}
+
 static pps_status upload_all(gpu_mesh *out) {
     const pps_mesh *mesh = out->mesh;
-    vertex *all = malloc((3 * mesh->n_triangles + 1) * sizeof *all);
-    double(*sum)[3] = vertex_normals(mesh);
-    pps_status status = all && sum ? PPS_OK : PPS_ERR_MEMORY;
+    size_t n = 3 * mesh->n_triangles + 1;
+    filling f = {.mesh = mesh,
+                 .sum = vertex_normals(mesh),
+                 .vertex = malloc(n * sizeof *f.vertex),
+                 .index = malloc(n * sizeof *f.index),
+                 .made = calloc(mesh->n_vertices + 1, sizeof *f.made)};
+    pps_status status =
+        f.sum && f.vertex && f.index && f.made ? PPS_OK : PPS_ERR_MEMORY;
     for (size_t i = 0; i < mesh->n_textures && !status; i++) {
         status = upload(&mesh->texture[i], out->texture[i]);
     }
     if (!status) {
-        group_triangles(out, (const double(*)[3])sum, all);
-        glGenVertexArrays(1, &out->vertices);
-        glGenBuffers(1, &out->buffer);
-        glBindVertexArray(out->vertices);
-        glBindBuffer(GL_ARRAY_BUFFER, out->buffer);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(3 * mesh->n_triangles * sizeof *all),
-                     all, GL_STATIC_DRAW);
-        describe_vertices();
-        glBindVertexArray(0);
+        group_triangles(out, &f);
+        upload_filling(&f, out);
+        measure_leaves(out);
     }
     for (size_t i = 0; i < out->n_groups; i++) {
         const pps_material *m = out->group[i].material;
@@ -195,8 +294,10 @@ static pps_status upload_all(gpu_mesh *out) {
             texture_mean(&mesh->texture[m->texture], m->alpha_min, out->group[i].mean);
         }
     }
-    free(all);
-    free(sum);
+    free(f.sum);
+    free(f.vertex);
+    free(f.index);
+    free(f.made);
     return status;
 }
 
@@ -221,7 +322,13 @@ void gpu_mesh_free(gpu_mesh *mesh) {
     }
     glDeleteVertexArrays(1, &mesh->vertices);
     glDeleteBuffers(1, &mesh->buffer);
+    glDeleteBuffers(1, &mesh->indices);
     free(mesh->texture);
     free(mesh->group);
     *mesh = (gpu_mesh){0};
+}
+
+void gpu_group_draw(const gpu_group *group, int level, GLsizei n) {
+    glDrawElementsInstanced(GL_TRIANGLES, group->count[level], GL_UNSIGNED_INT,
+                            (const char *)NULL + group->first, n);
 }

@@ -235,7 +235,7 @@ static bool read_number(int id, const char *text, preview_options *o,
         return k >= 0 || refuse(problem, "compensate", text, "none, derived, printed");
     case SHOW:
         k = read_word(text, shows, 3);
-        o->show = (stage_show)k;
+        o->look.show = (stage_show)k;
         return k >= 0 || refuse(problem, "show", text, "light, sun, scattered");
     case COMPONENT:
         return read_components(text, &o->stage.sources) ||

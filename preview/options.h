@@ -18,7 +18,7 @@ typedef struct {
     double sun[2];   /* the same; */
     bool sun_given;  /* else the scene's */
     double exposure; /* times that of a white plane */
-    stage_show show;
+    stage_look look;
     stage_options stage;
 } preview_options;
 

@@ -24,7 +24,7 @@ pps_picture *snapshot_draw(stage *s, const preview_options *options,
     pps_camera_fit(s->scene, options->view[0], options->view[1],
                    (double)options->width / options->height, &camera);
     frame_begin(&f);
-    stage_draw(s, &camera, options->width, options->height, options->show);
+    stage_draw(s, &camera, options->width, options->height, &options->look);
     frame_finish(&f);
     frame_read(&f, picture);
     frame_free(&f);
@@ -42,7 +42,7 @@ static int draw_and_write(stage *s, const preview_options *options,
         return EXIT_FAILED;
     }
     double exposure =
-        options->show == SHOW_LIGHT ? options->exposure * stage_exposure(s) : 1;
+        options->look.show == SHOW_LIGHT ? options->exposure * stage_exposure(s) : 1;
     pps_status status =
         pps_picture_write(picture, exposure, options->snapshot, problem);
     pps_picture_free(picture);

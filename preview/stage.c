@@ -180,11 +180,12 @@ static pps_status load_meshes(stage *s) {
 }
 
 static bool open_all(stage *s, pps_problem *problem) {
+    s->depth_program = gl_program("plant_vert", "depth_frag", problem);
     s->plant_program = gl_program("plant_vert", "sun+spp+leaf_light+plant_frag", problem);
     s->backdrop_program =
         s->plant_program ? gl_program("backdrop_vert", "sun+backdrop_frag", problem)
                          : 0;
-    if (!s->backdrop_program) {
+    if (!s->depth_program || !s->backdrop_program) {
         return false;
     }
     glGenVertexArrays(1, &s->empty);
@@ -235,6 +236,7 @@ void stage_close(stage *s) {
     glDeleteTextures(1, &s->openness);
     glDeleteTextures(1, &s->white);
     glDeleteVertexArrays(1, &s->empty);
+    glDeleteProgram(s->depth_program);
     glDeleteProgram(s->plant_program);
     glDeleteProgram(s->backdrop_program);
     pps_system_free(s->system);

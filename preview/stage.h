@@ -30,6 +30,14 @@ typedef struct {
 
 typedef enum { SHOW_LIGHT, SHOW_SUN, SHOW_SCATTERED } stage_show;
 
+/* How a frame is drawn. */
+typedef struct {
+    stage_show show;
+    double detail; /* pixels: where leaves are smaller, fewer and larger ones stand for
+                      them, until they are that large; 0: every leaf */
+    bool all;      /* also plants that are out of view (to see what leaving them out saves) */
+} stage_look;
+
 /* Seconds: [0..4] the system's steps 1 to 5, [5] the sun's maps on the GPU. */
 enum { STAGE_TIMES = 6 };
 
@@ -51,12 +59,12 @@ typedef struct stage {
     double (*ball)[4]; /* about each prototype: middle and radius */
     gpu_mesh *mesh;    /* of each prototype */
     GLuint *instances; /* buffers of each prototype's instances, */
-    GLsizei *n_drawn;  /* in view */
+    GLsizei (*n_drawn)[GPU_LEVELS]; /* in view, of each level of detail */
     stage_sun sun;
     gl_table cell_of, scattered, sky_shares, leaf_light;
     GLuint openness, empty, white;
     float open_frame[4], around[3];
-    GLuint plant_program, backdrop_program;
+    GLuint depth_program, plant_program, backdrop_program;
 } stage;
 
 /* Take a scene, which the stage then owns, and do steps 1 to 5. NULL: the problem. */
@@ -69,7 +77,7 @@ bool stage_light_sky(stage *s, pps_problem *problem);
 
 /* Draw into the bound frame buffer, whose viewport is width x height: linear radiance. */
 void stage_draw(stage *s, const pps_camera *camera, int width, int height,
-                stage_show show);
+                const stage_look *look);
 
 /* What makes a white plane under the open sky shine as brightly as can be shown. */
 double stage_exposure(const stage *s);

@@ -6,14 +6,9 @@
 #include <string.h>
 
 #include "preview/stage_own.h"
+#include "preview/stage_view.h"
 
 static const double PI = 3.14159265358979323846;
-
-/* The camera's axes, and the matrix from the scene to clip space. */
-typedef struct {
-    double right[3], up[3], back[3], tangent, aspect;
-    float to_clip[16]; /* by columns */
-} view;
 
 /* As the shaders read it. */
 typedef struct {
@@ -24,70 +19,8 @@ typedef struct {
 typedef struct {
     double distance;
     size_t instance;
+    int level;
 } seen;
-
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-static void normalize(double v[3]) {
-    double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3 && length > 0; i++) {
-        v[i] /= length;
-    }
-}
-
-/* ---- the camera ---- */
-
-/* Near and far planes about the whole scene. */
-static void depth_range(const pps_box *all, const pps_camera *camera,
-                        const double back[3], double *near, double *far) {
-    double most = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        double off[3];
-        for (int i = 0; i < 3; i++) {
-            off[i] = (corner >> i & 1 ? all->high[i] : all->low[i]) - camera->eye[i];
-        }
-        most = fmax(most, -dot(off, back));
-    }
-    *far = fmax(4 * most, 100);
-    *near = fmax(most / 1000, 0.02);
-}
-
-static void set_view(const pps_box *box, const pps_camera *camera, double aspect,
-                     view *v) {
-    double near, far;
-    for (int i = 0; i < 3; i++) {
-        v->back[i] = camera->eye[i] - camera->target[i];
-    }
-    normalize(v->back);
-    cross(camera->up, v->back, v->right);
-    normalize(v->right);
-    cross(v->back, v->right, v->up);
-    v->tangent = tan(camera->field_of_view * PI / 360);
-    v->aspect = aspect;
-    depth_range(box, camera, v->back, &near, &far);
-    const double *row[] = {v->right, v->up, v->back};
-    const double scale[] = {1 / (v->tangent * aspect), 1 / v->tangent,
-                            (far + near) / (near - far)};
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) {
-            /* In front of the eye `back` is negative, clip z and w grow. */
-            v->to_clip[4 * c + r] = (float)(scale[r] * row[r][c]);
-            v->to_clip[4 * c + 3] = (float)-v->back[c];
-        }
-        v->to_clip[12 + r] = (float)(-scale[r] * dot(row[r], camera->eye));
-    }
-    v->to_clip[14] += (float)(2 * far * near / (near - far));
-    v->to_clip[15] = (float)dot(v->back, camera->eye);
-}
 
 /* ---- instances ---- */
 
@@ -96,40 +29,50 @@ static int nearer(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* A ball against the four sides of the view and the eye's plane. */
-static bool in_view(const view *v, const double off[3], double radius) {
-    double ahead = -dot(off, v->back);
-    double half[] = {v->tangent * v->aspect, v->tangent};
-    double side[] = {fabs(dot(off, v->right)), fabs(dot(off, v->up))};
-    bool in = ahead > -radius;
-    for (int i = 0; i < 2; i++) {
-        in = in && side[i] - half[i] * ahead < radius * sqrt(1 + half[i] * half[i]);
-    }
-    return in;
+/* The highest level whose leaves, `near` metres away, stay smaller than `pixel` metres for
+ * every metre of distance. */
+static int level_of(const stage *s, const pps_instance *at, double near, double pixel) {
+    double leaf = s->mesh[at->prototype].leaf_size * at->scale;
+    double most = pixel * fmax(near, 0.01) / fmax(leaf, 1e-9); /* times as large */
+    return most > 1 ? (int)fmin(floor(2 * log2(most)), GPU_LEVELS - 1) : 0;
 }
 
-static void put_instances(stage *s, const pps_camera *camera, const view *v,
-                          seen *order, instance_row *row) {
+/* What is in view, from near to far. pixel: how large leaves may become, in metres 1 m away;
+ * 0: as they are. */
+static size_t find_seen(const stage *s, const view *v, const stage_look *look,
+                        double pixel, seen *order) {
     const pps_scene *scene = s->scene;
     size_t n = 0;
     for (size_t i = 0; i < scene->n_instances; i++) {
-        const double *ball = s->ball[scene->instance[i].prototype];
-        double center[3], radius = ball[3] * scene->instance[i].scale, off[3];
-        pps_instance_point(&scene->instance[i], ball, center);
+        const pps_instance *at = &scene->instance[i];
+        const double *ball = s->ball[at->prototype];
+        double center[3], radius = ball[3] * at->scale, off[3], square = 0;
+        pps_instance_point(at, ball, center);
         for (int k = 0; k < 3; k++) {
-            off[k] = center[k] - camera->eye[k];
+            off[k] = center[k] - v->eye[k];
+            square += off[k] * off[k];
         }
-        if (in_view(v, off, radius)) {
-            order[n++] = (seen){dot(off, off), i};
+        if (look->all || view_has(v, off, radius)) {
+            double distance = sqrt(square);
+            order[n++] =
+                (seen){distance, i, level_of(s, at, distance - radius, pixel)};
         }
     }
     qsort(order, n, sizeof *order, nearer);
-    for (size_t p = 0; p < scene->n_prototypes; p++) {
-        size_t m = 0;
+    return n;
+}
+
+/* Rows of a prototype's instances, level by level. */
+static void put_instances(stage *s, size_t p, const seen *order, size_t n,
+                          instance_row *row) {
+    const pps_scene *scene = s->scene;
+    size_t m = 0;
+    for (int level = 0; level < GPU_LEVELS; level++) {
+        size_t before = m;
         for (size_t k = 0; k < n; k++) {
             size_t i = order[k].instance;
             const pps_instance *at = &scene->instance[i];
-            if ((size_t)at->prototype == p) {
+            if ((size_t)at->prototype == p && order[k].level == level) {
                 row[m++] = (instance_row){
                     {(float)at->translation[0], (float)at->translation[1],
                      (float)at->translation[2], (float)at->scale},
@@ -137,15 +80,15 @@ static void put_instances(stage *s, const pps_camera *camera, const view *v,
                     {(uint32_t)i, (uint32_t)scene->first_leaf[i]}};
             }
         }
-        s->n_drawn[p] = (GLsizei)m;
-        glBindBuffer(GL_ARRAY_BUFFER, s->instances[p]);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(m * sizeof *row), row,
-                     GL_STREAM_DRAW);
+        s->n_drawn[p][level] = (GLsizei)(m - before);
     }
+    glBindBuffer(GL_ARRAY_BUFFER, s->instances[p]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(m * sizeof *row), row, GL_STREAM_DRAW);
 }
 
-static void describe_instances(void) {
-    const char *base = NULL;
+/* From row number `first` on: OpenGL 3.3 has no other way to begin there. */
+static void describe_instances(size_t first) {
+    const char *base = (const char *)NULL + first * sizeof(instance_row);
     glVertexAttribPointer(AT_PLACE, 4, GL_FLOAT, GL_FALSE, sizeof(instance_row),
                           base + offsetof(instance_row, place));
     glVertexAttribPointer(AT_TURN, 2, GL_FLOAT, GL_FALSE, sizeof(instance_row),
@@ -234,30 +177,53 @@ static void set_optics(const stage *s, GLuint program, size_t prototype) {
 
 /* ---- drawing ---- */
 
+static void draw_group(const stage *s, GLuint program, size_t p,
+                       const gpu_group *group) {
+    const double mean[] = {(double)group->mean[0], (double)group->mean[1],
+                           (double)group->mean[2]};
+    glActiveTexture(GL_TEXTURE0 + UNIT_IMAGE);
+    glBindTexture(GL_TEXTURE_2D, group->texture ? group->texture : s->white);
+    gl_set_vec3(program, "image_mean", mean);
+    gl_set_vec3(program, "color", group->material->color);
+    gl_set_float(program, "alpha_min", group->texture ? group->material->alpha_min : 0);
+    size_t first = 0;
+    for (int level = 0; level < GPU_LEVELS; level++) {
+        GLsizei n = s->n_drawn[p][level];
+        if (n > 0) {
+            describe_instances(first);
+            gl_set_float(program, "grow", group->grow[level]);
+            gpu_group_draw(group, level, n);
+        }
+        first += (size_t)n;
+    }
+}
+
 static void draw_prototype(const stage *s, GLuint program, size_t p) {
     const gpu_mesh *mesh = &s->mesh[p];
-    set_optics(s, program, p);
-    set_slab(s, program, p);
     glBindVertexArray(mesh->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, s->instances[p]);
-    describe_instances();
-    for (size_t g = 0; g < mesh->n_groups && s->n_drawn[p] > 0; g++) {
-        const gpu_group *group = &mesh->group[g];
-        const double mean[] = {(double)group->mean[0], (double)group->mean[1],
-                               (double)group->mean[2]};
-        glActiveTexture(GL_TEXTURE0 + UNIT_IMAGE);
-        glBindTexture(GL_TEXTURE_2D, group->texture ? group->texture : s->white);
-        gl_set_vec3(program, "image_mean", mean);
-        gl_set_vec3(program, "color", group->material->color);
-        gl_set_float(program, "alpha_min",
-                     group->texture ? group->material->alpha_min : 0);
-        glDrawArraysInstanced(GL_TRIANGLES, group->first, group->count, s->n_drawn[p]);
+    for (size_t g = 0; g < mesh->n_groups; g++) {
+        draw_group(s, program, p, &mesh->group[g]);
     }
     glBindVertexArray(0);
 }
 
+/* Depths first: then only what is seen is shaded, and shading is what costs. */
+static void draw_depths(const stage *s, const view *v) {
+    GLuint program = s->depth_program;
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "to_clip"), 1, GL_FALSE,
+                       v->to_clip);
+    gl_set_int(program, "image", UNIT_IMAGE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    for (size_t p = 0; p < s->scene->n_prototypes; p++) {
+        draw_prototype(s, program, p);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 static void draw_plants(const stage *s, const pps_camera *camera, const view *v,
-                        stage_show show) {
+                        const stage_look *look) {
     GLuint program = s->plant_program;
     const double around[] = {(double)s->around[0], (double)s->around[1],
                              (double)s->around[2]};
@@ -270,11 +236,15 @@ static void draw_plants(const stage *s, const pps_camera *camera, const view *v,
     gl_set_int(program, "per_leaf", !stage_cells_known(s));
     gl_set_int(program, "image", UNIT_IMAGE);
     gl_set_vec3(program, "around", around);
-    gl_set_int(program, "false_color", (int)show);
+    gl_set_int(program, "false_color", (int)look->show);
     gl_set_float(program, "false_top", 1.5 * PI / stage_exposure(s));
+    glDepthFunc(GL_EQUAL);
     for (size_t p = 0; p < s->scene->n_prototypes; p++) {
+        set_optics(s, program, p);
+        set_slab(s, program, p);
         draw_prototype(s, program, p);
     }
+    glDepthFunc(GL_LESS);
 }
 
 static void draw_backdrop(const stage *s, const pps_camera *camera, const view *v) {
@@ -309,19 +279,24 @@ static void draw_backdrop(const stage *s, const pps_camera *camera, const view *
 }
 
 void stage_draw(stage *s, const pps_camera *camera, int width, int height,
-                stage_show show) {
+                const stage_look *look) {
     size_t n = s->scene->n_instances;
     view v;
     seen *order = malloc((n + 1) * sizeof *order);
     instance_row *row = malloc((n + 1) * sizeof *row);
-    set_view(&s->box, camera, (double)width / height, &v);
+    view_set(&s->box, camera, (double)width / height, &v);
     glViewport(0, 0, width, height);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     if (order && row) {
-        put_instances(s, camera, &v, order, row);
-        draw_plants(s, camera, &v, show);
+        double pixel = look->detail * 2 * v.tangent / height;
+        n = find_seen(s, &v, look, pixel, order);
+        for (size_t p = 0; p < s->scene->n_prototypes; p++) {
+            put_instances(s, p, order, n, row);
+        }
+        draw_depths(s, &v);
+        draw_plants(s, camera, &v, look);
     }
     draw_backdrop(s, camera, &v);
     free(order);

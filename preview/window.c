@@ -143,7 +143,7 @@ static void write_panels(const view_window *w, int width, int height, int scale)
         "%s%s, %s%s\nsun %.0f, %.0f  frame %.0f ms\ncells %.2f s, sky %.0f ms, sun "
         "%.0f + %.0f ms\n%zu triangles  (h: help)",
         model_name(w), form[w->options.stage.compensate],
-        component_name(w->options.stage.sources), show[w->options.show], w->sun[0],
+        component_name(w->options.stage.sources), show[w->options.look.show], w->sun[0],
         w->sun[1], 1000 * w->frame_seconds, t[0] + t[1] + t[2], 1000 * t[3],
         1000 * t[4], 1000 * t[5], w->stage->n_triangles);
     panel_draw(&w->panel, width, height, scale, false, w->help ? HELP : text);
@@ -161,7 +161,7 @@ static void show(const view_window *w, const frame *f, int width, int height) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, f->texture);
     gl_set_int(w->tone, "picture", 0);
-    gl_set_float(w->tone, "exposure", w->options.show == SHOW_LIGHT ? exposure : 1);
+    gl_set_float(w->tone, "exposure", w->options.look.show == SHOW_LIGHT ? exposure : 1);
     glBindVertexArray(w->empty);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
@@ -171,7 +171,7 @@ static void draw_frame(view_window *w, const frame *f) {
     pps_camera camera;
     orbit_camera(&w->orbit, &camera);
     frame_begin(f);
-    stage_draw(w->stage, &camera, f->width, f->height, w->options.show);
+    stage_draw(w->stage, &camera, f->width, f->height, &w->options.look);
     frame_finish(f);
     glFinish();
 }
@@ -190,7 +190,7 @@ static void save_picture(view_window *w) {
         return;
     }
     frame_read(&w->fine, picture);
-    double exposure = w->options.show == SHOW_LIGHT
+    double exposure = w->options.look.show == SHOW_LIGHT
                           ? w->options.exposure * stage_exposure(w->stage)
                           : 1;
     if (pps_picture_write(picture, exposure, path, &problem)) {
@@ -333,7 +333,7 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int mods) 
         next_component(w);
         break;
     case GLFW_KEY_F:
-        w->options.show = (stage_show)((w->options.show + 1) % 3);
+        w->options.look.show = (stage_show)((w->options.look.show + 1) % 3);
         break;
     case GLFW_KEY_LEFT_BRACKET:
         w->options.exposure /= 1.2;

@@ -7,9 +7,13 @@ layout(location = 2) in vec2 texture_place;
 layout(location = 3) in uint leaf;
 layout(location = 4) in vec4 place; // translation, scale
 layout(location = 5) in vec2 turn;  // cosine and sine of the yaw
+layout(location = 7) in vec3 center; // of the leaf
 layout(location = 6) in uvec2 own;  // number of the instance, of its first leaf
 
 uniform mat4 to_clip;
+uniform float grow; // of leaves, where others are left out
+
+invariant gl_Position; // drawn twice: depths first
 
 out vec3 point, facing;
 out vec2 on_texture;
@@ -20,7 +24,8 @@ vec3 turned(vec3 v) {
 }
 
 void main() {
-    point = turned(position) * place.w + place.xyz;
+    vec3 own_place = grow == 1 ? position : center + grow * (position - center);
+    point = turned(own_place) * place.w + place.xyz;
     facing = turned(normal);
     on_texture = texture_place;
     instance = int(own.x);
