@@ -24,6 +24,8 @@ static const struct {
     {"1", OF_SOLVER, table_1},
     {"2", OF_SOLVER, table_2},
     {"3", BIT(RAYS) | BIT(SEED), table_3},
+    {"4", 0, table_4},
+    {"5", 0, table_5},
     {"figure7", BIT(SAMPLES) | BIT(SEED), table_figure7},
     {"fps", BIT(SEED), table_fps},
     {"crowns", BIT(RAYS) | BIT(SEED) | BIT(TREE_FILE), table_crowns},

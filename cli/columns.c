@@ -65,12 +65,14 @@ static const column table_columns[] = {
     {"column", "string", NULL, "column of the table"},
     {"paper", "double", "1", "the printed figure; empty where there is none"},
     {"ours", "double", "1",
-     "the same measured here: percent in 1, 2, 3, crowns and figure7, trees a second in fps"},
+     "the same measured here: percent in 1, 2, 3, crowns and figure7, trees a second in fps, "
+     "in 4 and 5 as the column says"},
     {"rms_rel", "double", "%",
      "1, 2: mean over angles and depths of the root mean square error / mean exact "
      "radiance; 3, crowns: the error with every triangle weighing the same; figure7: mean "
      "|difference| / mean"},
-    {"method", "string", NULL, "name of the method or light model measured"},
+    {"method", "string", NULL, "name of the method or light model measured; 4, 5: of the processor or of OpenGL's "
+     "renderer that took the time"},
     {"ratio", "double", "1", "3, crowns, figure7: mean of ours / mean of Monte Carlo"},
     {"spread", "double", "1", "3, crowns, figure7: half the range of `ours` over the seeds"},
     {"seconds_per_cell", "double", "s",

@@ -7,7 +7,9 @@
 #include <sched.h>
 #include <signal.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -37,6 +39,23 @@ int system_cores(void) {
     if (sched_getaffinity(0, sizeof set, &set) == 0)
         cores = CPU_COUNT(&set);
     return cores > 1 ? (int)cores : 1;
+}
+
+void system_processor(char *name, size_t size) {
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char line[200];
+
+    snprintf(name, size, "unknown processor");
+    while (file && fgets(line, sizeof line, file)) {
+        const char *value = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && value) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, size, "%s", value + 1 + strspn(value + 1, " "));
+            break;
+        }
+    }
+    if (file)
+        fclose(file);
 }
 
 static void note(int signal_number) { caught = signal_number; }

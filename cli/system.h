@@ -5,6 +5,7 @@
 #define PPSCAT_CLI_SYSTEM_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* Seconds of a clock that only goes forward. */
 double system_seconds(void);
@@ -13,6 +14,9 @@ void system_pause(double seconds);
 
 /* Cores that this process may use, at least 1. */
 int system_cores(void);
+
+/* What the processor calls itself; "unknown processor" where that is not known. */
+void system_processor(char *name, size_t size);
 
 /* From now on SIGINT, SIGTERM and SIGHUP are noted rather than deadly, but for those that
  * are ignored already (nohup). A second one kills as ever. */

@@ -22,6 +22,8 @@ int table_1(const invocation *call); /* table_slab.c */
 int table_2(const invocation *call);
 int table_3(const invocation *call); /* table_crown.c */
 int table_crowns(const invocation *call);
+int table_4(const invocation *call); /* table_system.c */
+int table_5(const invocation *call);
 int table_figure7(const invocation *call); /* table_leaf.c */
 int table_fps(const invocation *call);
 

@@ -103,7 +103,8 @@ static bool go_round(const bench *b, pps_problem *problem) {
 static void leave_out(const bench *b) {
     double detail = b->options->look.detail > 0 ? b->options->look.detail : 2;
     stage_show show = b->options->look.show;
-    const stage_look look[] = {{show, 0, true}, {show, 0, false}, {show, detail, false}};
+    const stage_look look[] = {
+        {show, 0, true}, {show, 0, false}, {show, detail, false}};
     static const char *const name[] = {"every plant and leaf", "plants in view",
                                        "fewer leaves"};
     static const char *const place[] = {"outside", "within"};

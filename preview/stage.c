@@ -181,7 +181,8 @@ static pps_status load_meshes(stage *s) {
 
 static bool open_all(stage *s, pps_problem *problem) {
     s->depth_program = gl_program("plant_vert", "depth_frag", problem);
-    s->plant_program = gl_program("plant_vert", "sun+spp+leaf_light+plant_frag", problem);
+    s->plant_program =
+        gl_program("plant_vert", "sun+spp+leaf_light+plant_frag", problem);
     s->backdrop_program =
         s->plant_program ? gl_program("backdrop_vert", "sun+backdrop_frag", problem)
                          : 0;

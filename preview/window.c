@@ -161,7 +161,8 @@ static void show(const view_window *w, const frame *f, int width, int height) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, f->texture);
     gl_set_int(w->tone, "picture", 0);
-    gl_set_float(w->tone, "exposure", w->options.look.show == SHOW_LIGHT ? exposure : 1);
+    gl_set_float(w->tone, "exposure",
+                 w->options.look.show == SHOW_LIGHT ? exposure : 1);
     glBindVertexArray(w->empty);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);

@@ -130,8 +130,8 @@ void pps_lower_solve_transposed(int n, const double *lower, int n_rhs, double *b
         small_solve_transposed(n, lower, n_rhs, b);
         return;
     }
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n, n_rhs,
-                1, lower, n, b, n);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n,
+                n_rhs, 1, lower, n, b, n);
 }
 
 void pps_qr_r(int n, double *a, double *work) {

@@ -89,7 +89,7 @@ static const struct {
     {"error --albedo 2", "--albedo", "'2'", "0 to 1"},
     {"flux --mu0 nan", "--mu0", "nan", "above 0"},
     {"table", "table", "''", "1, 2"},
-    {"table 9", "table", "'9'", "1, 2, 3, figure7, fps, crowns"},
+    {"table 9", "table", "'9'", "1, 2, 3, 4, 5, figure7, fps, crowns"},
     {"table 1 --rays 5", "--rays", "'5'", "table 3, crowns"},
     {"table fps --tree x.obj", "--tree", "'x.obj'", "table crowns"},
     {"table 3 --tol 0.1", "--tol", "'0.1'", "table 1, 2"},
