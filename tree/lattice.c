@@ -29,8 +29,8 @@ struct pps_lattice {
     uint32_t *leaf_cell;
     float *leaf_depth;          /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
-    float *kappa[2]; /* per leaf cell: escape factors of light from outside, of light
-                        scattered before */
+    float *kappa[2];            /* per leaf cell: escape factors of light from outside,
+                                   and of light from inside, scattered before */
     pps_bands *albedo, *direct; /* per leaf cell */
     pps_bands *source, *beam;   /* per cell: scattered evenly, and of the sun alone */
     pps_bands
@@ -210,7 +210,13 @@ static void note_sky_below(pps_lattice *l, const pps_sweeper *sweeper) {
     }
 }
 
-static void escape_seen(const pps_cells *cells, size_t c, double *clear, double *both) {
+/* Seen from the leaves of a cell: the share of the sphere that is clear, and that share
+ * squared, more where those leaves that light reaches are those it leaves from again. */
+typedef struct {
+    double clear, twice;
+} outlook;
+
+static outlook look_out(const pps_cells *cells, size_t c) {
     int n = cells->directions.n;
     double sum = 0, squares = 0;
     for (int j = 0; j < n; j++) {
@@ -219,40 +225,43 @@ static void escape_seen(const pps_cells *cells, size_t c, double *clear, double 
         squares += v * v;
     }
     double unrelated = (sum * sum - squares) / (n * (n - 1.0));
-    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1;
-    *clear = sum / n;
-    *both = fmin(related * *clear, 1) * *clear;
-    if (getenv("NOR")) *both = *clear * *clear;
+    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1,
+           mean = sum / n;
+    return (outlook){mean, fmin(related * mean, 1) * mean};
 }
 
+/* Light scattered by leaves that does not get out, over the same on the lattice, by leaf
+ * area over 3^3 cells. Light from outside has come by a clear way, and a share twice/clear
+ * of it finds one back. What is left for light from inside follows from an enclosure
+ * of one radiance, where leaves that do not absorb must not change it: of such light
+ * 1 - clear is from inside, and as much must come back of both together. */
 static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given) {
     size_t n = l->n_cells;
-    double *w = calloc(8 * n + 1, sizeof *w);
-    if (!w) {
+    double *sum = calloc(8 * n + 1, sizeof *sum), *mean = sum ? sum + 4 * n : NULL;
+    if (!sum) {
         return PPS_ERR_MEMORY;
     }
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        double clear, both, kept = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]), area = cells->area[c];
-        escape_seen(cells, c, &clear, &both);
-        w[c] = area * (clear - both);          /* from outside, does not leave */
-        w[n + c] = area * clear * kept;
-        w[2 * n + c] = area * (1 - 2 * clear + both); /* from inside, does not leave */
-        w[3 * n + c] = area * (1 - clear) * kept;
-        if (getenv("OLDK")) { w[2*n+c] = w[c] = area*(clear > 0 ? 1-both/clear : 1); w[3*n+c] = w[n+c]= area*kept; }
-    }
-    for (size_t k = 0; k < 4; k++) {
-        pps_grid_smooth(cells, w + k * n, w + (k + 4) * n);
-    }
-    for (size_t i = 0; i < l->n_leaf_cells; i++) {
-        size_t c = l->leaf_cell[i];
-        for (size_t k = 0; k < 2; k++) {
-            double over = w[(4 + 2 * k) * n + c], under = w[(5 + 2 * k) * n + c];
-            double ratio = under > 0 ? over / under : 1;
-            l->kappa[k][i] = (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+        outlook o = look_out(cells, c);
+        double kept = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
+        const double part[4] = {o.clear - o.twice, o.clear * kept,
+                                1 - 2 * o.clear + o.twice, (1 - o.clear) * kept};
+        for (size_t k = 0; k < 4; k++) {
+            sum[k * n + c] = cells->area[c] * part[k];
         }
     }
-    free(w);
+    for (size_t k = 0; k < 4; k++) {
+        pps_grid_smooth(cells, sum + k * n, mean + k * n);
+    }
+    for (size_t i = 0; i < 2 * l->n_leaf_cells; i++) {
+        size_t k = i / l->n_leaf_cells, m = i % l->n_leaf_cells;
+        const double *at = mean + 2 * k * n + l->leaf_cell[m];
+        double ratio = at[n] > 0 ? at[0] / at[n] : k > 0 ? (double)l->kappa[0][m] : 1;
+        l->kappa[k][m] =
+            (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
+    }
+    free(sum);
     return PPS_OK;
 }
 
@@ -426,7 +435,8 @@ static void set_phase(pps_lattice *l, const pps_scene *scene) {
     }
 }
 
-/* Fluence of sun and sky at the leaves, by measured visibilities. */
+/* Fluence of sun and sky at the leaves, by measured visibilities, times the escape factor
+ * of what is scattered of it. */
 static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     const pps_scene *scene = lit->scene;
     const pps_cells *cells = lit->cells;
@@ -516,11 +526,13 @@ static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
 
 /* ---- source iteration ---- */
 
-/* What leaves scatter of their direct light and phi, the state's first part. */
+/* What leaves scatter of their direct light and phi, the state's first part; what stays
+ * among them, that is, as if it did so on the lattice. */
 static void set_source(pps_lattice *l) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        l->source[c] = l->leaf_depth[i] * l->albedo[i] * (l->direct[i] + l->kappa[1][i] * l->state[i]);
+        l->source[c] = l->leaf_depth[i] * l->albedo[i] *
+                       (l->direct[i] + l->kappa[1][i] * l->state[i]);
     }
 }
 
