@@ -130,7 +130,7 @@ static uint32_t cell_at(const pps_cells *c, const double point[3]) {
 static pps_leaf_point point_at(const pps_cells_own *own, uint64_t i) {
     pps_leaf_point p;
     pps_leaf_point_spread(own->scene, i / own->samples, own->seed, PPS_RANDOM_CELLS,
-                          i % own->samples, own->samples, &p);
+                          i % own->samples, &p);
     return p;
 }
 
@@ -270,7 +270,7 @@ static void measure_leaf_sun(const pps_cells_own *own, size_t leaf, size_t n,
     double face[2] = {0, 0};
     for (size_t k = 0; k < n; k++) {
         pps_leaf_point p;
-        pps_leaf_point_spread(own->scene, leaf, own->seed, PPS_RANDOM_CELLS, k, n, &p);
+        pps_leaf_point_spread(own->scene, leaf, own->seed, PPS_RANDOM_CELLS, k, &p);
         pps_line line = pps_rays_leave(own->rays, p.point, p.normal, to);
         if (!pps_rays_occluded(own->rays, &line)) {
             double cosine = vec_dot(p.normal, to);

@@ -30,7 +30,8 @@ struct pps_lattice {
     uint32_t *leaf_cell;
     float *leaf_depth;          /* per leaf cell: of its leaves alone */
     float *depth;               /* per cell: sigma times side */
-    float *kappa;               /* per leaf cell: escape factor */
+    float *kappa[2];            /* per leaf cell: escape factors of light from outside,
+                                   and of light from inside, scattered before */
     pps_bands *albedo, *direct; /* per leaf cell */
     pps_bands *source, *beam;   /* per cell: scattered evenly, and of the sun alone */
     pps_bands
@@ -59,7 +60,7 @@ void pps_lattice_free(pps_lattice *l) {
         free(l->optics);
         free(l->leaf_cell);
         free(l->depth);
-        free(l->kappa);
+        free(l->kappa[0]);
         free(l->leaf_depth);
         free(l->state);
         free(l->weight);
@@ -85,7 +86,7 @@ void pps_lattice_forget(pps_lattice *l) {
 double pps_lattice_kappa(const pps_lattice *l, size_t c) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         if (l->leaf_cell[i] == c) {
-            return (double)l->kappa[i];
+            return (double)l->kappa[1][i];
         }
     }
     return 1;
@@ -139,16 +140,17 @@ static pps_status allocate(pps_lattice *l) {
     size_t n = l->n_cells, m = l->n_leaf_cells;
     l->depth = calloc(n + 1, sizeof *l->depth);
     l->leaf_cell = malloc((m + 1) * sizeof *l->leaf_cell);
-    l->kappa = malloc((m + 1) * sizeof *l->kappa);
+    l->kappa[0] = malloc((2 * m + 1) * sizeof *l->kappa[0]);
     l->leaf_depth = malloc((m + 1) * sizeof *l->leaf_depth);
     l->albedo = bands_array(2 * m);
     l->source = bands_array(10 * n + 3 * l->n_columns);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
-    if (!l->depth || !l->leaf_cell || !l->kappa || !l->leaf_depth || !l->albedo ||
+    if (!l->depth || !l->leaf_cell || !l->kappa[0] || !l->leaf_depth || !l->albedo ||
         !l->source || !l->sky_below) {
         return PPS_ERR_MEMORY;
     }
     l->direct = l->albedo + m;
+    l->kappa[1] = l->kappa[0] + m;
     for (size_t h = 0; h < 2; h++) {
         l->sum[h] = l->source + (1 + h) * n;
         l->flux[h] = l->source + (3 + 3 * h) * n;
@@ -202,9 +204,13 @@ static void note_sky_below(pps_lattice *l, const pps_sweeper *sweeper) {
     }
 }
 
-/* The share of a cell's scattered light that meets nothing: the mean visibility, more where
- * those leaves that light reaches are those it leaves from again. */
-static double escape_seen(const pps_cells *cells, size_t c) {
+/* Seen from the leaves of a cell: the share of the sphere that is clear, and that share
+ * squared, more where those leaves that light reaches are those it leaves from again. */
+typedef struct {
+    double clear, twice;
+} outlook;
+
+static outlook look_out(const pps_cells *cells, size_t c) {
     int n = cells->directions.n;
     double sum = 0, squares = 0;
     for (int j = 0; j < n; j++) {
@@ -213,33 +219,43 @@ static double escape_seen(const pps_cells *cells, size_t c) {
         squares += v * v;
     }
     double unrelated = (sum * sum - squares) / (n * (n - 1.0));
-    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1;
-    return fmin(sum / n * related, 1);
+    double related = unrelated > 0 ? cells->both_clear[c] / unrelated : 1,
+           mean = sum / n;
+    return (outlook){mean, fmin(related * mean, 1) * mean};
 }
 
-/* kappa = (1 - mean visibility at leaves) / (1 - escape on the lattice), each a mean over
- * 3^3 cells: leaves that cluster below a cell catch more of their own light. */
+/* Light scattered by leaves that does not get out, over the same on the lattice, by leaf
+ * area over 3^3 cells. Light from outside has come by a clear way, and a share twice/clear
+ * of it finds one back. What is left for light from inside follows from an enclosure
+ * of one radiance, where leaves that do not absorb must not change it: of such light
+ * 1 - clear is from inside, and as much must come back of both together. */
 static pps_status set_kappa(pps_lattice *l, const pps_cells *cells, double given) {
-    double *kept = calloc(4 * l->n_cells + 1, sizeof *kept);
-    if (!kept) {
+    size_t n = l->n_cells;
+    double *sum = calloc(8 * n + 1, sizeof *sum), *mean = sum ? sum + 4 * n : NULL;
+    if (!sum) {
         return PPS_ERR_MEMORY;
     }
-    double *caught = kept + l->n_cells, *mean_kept = caught + l->n_cells,
-           *mean_caught = mean_kept + l->n_cells;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        kept[c] = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
-        caught[c] = 1 - escape_seen(cells, c);
+        outlook o = look_out(cells, c);
+        double kept = 1 - (double)(l->sum[0][c][0] + l->sum[1][c][0]);
+        const double part[4] = {o.clear - o.twice, o.clear * kept,
+                                1 - 2 * o.clear + o.twice, (1 - o.clear) * kept};
+        for (size_t k = 0; k < 4; k++) {
+            sum[k * n + c] = cells->area[c] * part[k];
+        }
     }
-    pps_grid_smooth(cells, kept, mean_kept);
-    pps_grid_smooth(cells, caught, mean_caught);
-    for (size_t i = 0; i < l->n_leaf_cells; i++) {
-        size_t c = l->leaf_cell[i];
-        double ratio = mean_kept[c] > 1e-6 ? mean_caught[c] / mean_kept[c] : 1;
-        l->kappa[i] =
+    for (size_t k = 0; k < 4; k++) {
+        pps_grid_smooth(cells, sum + k * n, mean + k * n);
+    }
+    for (size_t i = 0; i < 2 * l->n_leaf_cells; i++) {
+        size_t k = i / l->n_leaf_cells, m = i % l->n_leaf_cells;
+        const double *at = mean + 2 * k * n + l->leaf_cell[m];
+        double ratio = at[n] > 0 ? at[0] / at[n] : k > 0 ? (double)l->kappa[0][m] : 1;
+        l->kappa[k][m] =
             (float)(given > 0 ? given : fmin(fmax(ratio, KAPPA_MIN), KAPPA_MAX));
     }
-    free(kept);
+    free(sum);
     return PPS_OK;
 }
 
@@ -441,7 +457,8 @@ static void set_phase(pps_lattice *l, const pps_scene *scene) {
     }
 }
 
-/* Fluence of sun and sky at the leaves, by measured visibilities. */
+/* Fluence of sun and sky at the leaves, by measured visibilities, times the escape factor
+ * of what is scattered of it. */
 static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     const pps_scene *scene = lit->scene;
     const pps_cells *cells = lit->cells;
@@ -459,10 +476,10 @@ static void set_direct(pps_lattice *l, const pps_lit_scene *lit) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
         const float *seen = &cells->visibility[c * (size_t)l->n_directions];
-        l->direct[i] = (float)cells->sun_visibility[c] * e;
+        l->direct[i] = l->kappa[0][i] * (float)cells->sun_visibility[c] * e;
         l->beam[c] = l->leaf_depth[i] * l->albedo[i] * l->direct[i];
         for (int j = 0; sky && j < l->n_directions; j++) {
-            l->direct[i] += seen[j] * part[j];
+            l->direct[i] += l->kappa[0][i] * seen[j] * part[j];
         }
     }
 }
@@ -531,11 +548,13 @@ static pps_status light_ground(pps_lattice *l, const pps_lit_scene *lit,
 
 /* ---- source iteration ---- */
 
-/* What leaves scatter of their direct light and phi, the state's first part. */
+/* What leaves scatter of their direct light and phi, the state's first part; what stays
+ * among them, that is, as if it did so on the lattice. */
 static void set_source(pps_lattice *l) {
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        l->source[c] = l->leaf_depth[i] * l->albedo[i] * (l->direct[i] + l->state[i]);
+        l->source[c] = l->leaf_depth[i] * l->albedo[i] *
+                       (l->direct[i] + l->kappa[1][i] * l->state[i]);
     }
 }
 
@@ -575,7 +594,7 @@ static void take_image(pps_lattice *l) {
     pps_bands *image = l->image;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        *image++ = l->kappa[i] * (l->sum[0][c] + l->sum[1][c]);
+        *image++ = l->sum[0][c] + l->sum[1][c];
     }
     if (l->sweeper.periodic) {
         memcpy(image, l->sweeper.faces, l->sweeper.n_sides * sizeof *image);
@@ -605,12 +624,11 @@ static void give(const pps_lattice *l, pps_light_field *field) {
     size_t bands = (size_t)field->n_bands;
     for (size_t i = 0; i < l->n_leaf_cells; i++) {
         size_t c = l->leaf_cell[i];
-        float share = l->kappa[i];
         for (size_t b = 0; b < bands; b++) {
-            field->diffuse[c * bands + b] = share * (l->sum[0][c] + l->sum[1][c])[b];
+            field->diffuse[c * bands + b] = (l->sum[0][c] + l->sum[1][c])[b];
             for (size_t k = 0; k < 3; k++) {
                 field->flux[3 * (c * bands + b) + k] =
-                    share * (l->flux[0][3 * c + k] + l->flux[1][3 * c + k])[b];
+                    (l->flux[0][3 * c + k] + l->flux[1][3 * c + k])[b];
             }
         }
     }

@@ -1,7 +1,7 @@
 /* The light model `lattice`: discrete ordinates on the crown's own cells.
  *
- *   phi = direct + phi_d,  phi_d = kappa (1/N) sum_j I_j,
- *   omega_j.grad I_j = -sigma (albedo phi - I_j),   I_j = 4 pi times the radiance,
+ *   phi = direct + phi_d,  phi_d = sum_j w_j I_j,   I_j = 4 pi times the radiance,
+ *   omega_j.grad I_j = -sigma (albedo (kappa_0 direct + kappa_1 phi_d) - I_j),
  *
  * with sigma = one-sided leaf area / (2 volume), the measured mean visibility for the
  * direct light of sun and sky, and nothing diffuse from outside but what a Lambertian
@@ -35,7 +35,7 @@ void pps_lattice_forget(pps_lattice *lattice);
 /* Scatter the sun's light evenly from now on, as the slab library does at g = 0. */
 void pps_lattice_set_isotropic(pps_lattice *lattice);
 
-/* The escape factor of a cell. */
+/* The escape factor kappa_1 of a cell. */
 double pps_lattice_kappa(const pps_lattice *lattice, size_t c);
 
 #endif

@@ -79,16 +79,17 @@ void pps_leaf_point_draw(const pps_scene *scene, size_t leaf, uint64_t seed,
     }
 }
 
+/* A draw that falls where the leaf is cut out is drawn again with another shift: with the
+ * same one, points behind holes would be drawn more often than others. */
 void pps_leaf_point_spread(const pps_scene *scene, size_t leaf, uint64_t seed,
-                           pps_random_stream stream, uint64_t k, uint64_t n,
-                           pps_leaf_point *out) {
+                           pps_random_stream stream, uint64_t k, pps_leaf_point *out) {
     pps_scene_leaf at;
     pps_scene_leaf_at(scene, leaf, &at);
-    pps_uniforms shift = pps_random(seed, stream, leaf, FIRST_POINT_EVENT);
     for (uint64_t draw = 0; draw < MOST_DRAWS; draw++) {
-        double r[3], step = (double)(k + n * draw);
+        pps_uniforms shift = pps_random(seed, stream, leaf, FIRST_POINT_EVENT + draw);
+        double r[3];
         for (int i = 0; i < 3; i++) {
-            double x = shift.u[i] + step * SPREAD[i];
+            double x = shift.u[i] + (double)k * SPREAD[i];
             r[i] = x - floor(x);
         }
         if (place(scene, &at, r, out)) {

@@ -19,10 +19,9 @@ typedef struct {
 void pps_leaf_point_draw(const pps_scene *scene, size_t leaf, uint64_t seed,
                          pps_random_stream stream, uint64_t item, pps_leaf_point *out);
 
-/* Point k of n spread over a scene leaf: any one of them is a fair draw, together they
- * leave smaller holes than n draws. It depends on (seed, stream, leaf, k, n) alone. */
+/* Point k of those spread over a scene leaf: any one of them is a fair draw, the first n
+ * leave smaller holes than n draws. It depends on (seed, stream, leaf, k) alone. */
 void pps_leaf_point_spread(const pps_scene *scene, size_t leaf, uint64_t seed,
-                           pps_random_stream stream, uint64_t k, uint64_t n,
-                           pps_leaf_point *out);
+                           pps_random_stream stream, uint64_t k, pps_leaf_point *out);
 
 #endif

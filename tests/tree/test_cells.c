@@ -6,9 +6,11 @@
 #include <string.h>
 
 #include <ppscat/tree/cells.h>
+#include <ppscat/tree/light.h>
 
 #include "plants.h"
 #include "support/support.h"
+#include "tree/leafpoint.h"
 #include "tree/vec.h"
 
 static pps_cells *make_cells(const pps_scene *scene, int across, int samples,
@@ -38,6 +40,8 @@ static void a_stack_of_sheets_has_whole_depths(void **state) {
         assert_close(cells->sun_depth[c], above, 1e-14, 0);
         assert_close(cells->sun_behind[c], below, 1e-14, 0);
         assert_close(cells->sun_visibility[c], above == 0, 1e-14, 0);
+        assert_close((double)cells->leaf_sun[leaf][PPS_FRONT], above == 0, 1e-7, 0);
+        assert_close((double)cells->leaf_sun[leaf][PPS_BACK], 0, 0, 0);
         /* directions 0 and 1 are the poles */
         assert_close((double)cells->depth[c * 22], above, 1e-7, 0);
         assert_close((double)cells->depth[c * 22 + 1], below, 1e-7, 0);
@@ -179,6 +183,62 @@ static void few_points_a_cell_are_a_fair_sample(void **state) {
     pps_scene_free(scene);
 }
 
+/* Leaves whose right half is cut out: every part of the left half has its share of points,
+ * whatever fell into the hole before. */
+static void points_are_fair_beside_a_hole(void **state) {
+    (void)state;
+    enum { LEAVES = 3000, POINTS = 8, PARTS = 8 };
+    square *at = calloc(LEAVES, sizeof *at);
+    for (int i = 0; i < LEAVES; i++) {
+        at[i] = (square){0, 0, i, LEAF};
+    }
+    pps_mesh *mesh = squares(LEAVES, at);
+    cut_right_half(mesh);
+    pps_scene *scene = scene_of(mesh);
+    double share[PARTS] = {0};
+    for (size_t leaf = 0; leaf < LEAVES; leaf++) {
+        for (uint64_t k = 0; k < POINTS; k++) {
+            pps_leaf_point p;
+            pps_leaf_point_spread(scene, leaf, 5, PPS_RANDOM_CELLS, k, &p);
+            double part = floor(2 * PARTS * 0.9999 * p.point[0]); /* of the texture */
+            assert_true(part >= 0 && part < PARTS);
+            share[(int)part] += 1.0 / (LEAVES * POINTS);
+        }
+    }
+    for (int i = 0; i < PARTS; i++) { /* 5 standard deviations of free draws */
+        assert_close(share[i], 1.0 / PARTS, 0.085, 0);
+    }
+    pps_scene_free(scene);
+    free(at);
+}
+
+/* The sun's light that falls on leaves, by their own points and by light tracing. */
+static void leaves_own_sunlight_is_what_falls_on_them(void **state) {
+    (void)state;
+    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 8, 3000, 4);
+    pps_trace_options sun = {.rays = 1000000, .sources = PPS_SUN};
+    pps_irradiance *truth;
+    double sum[2] = {0, 0}, error = 0, squares_sum = 0;
+    memcpy(scene->sun.to, (double[]){0.6, 0, 0.8}, sizeof scene->sun.to);
+    pps_cells *cells = make_cells(scene, 0, 0, 0);
+    assert_int_equal(pps_trace_light(scene, &sun, &truth, NULL), PPS_OK);
+    for (size_t i = 0; i < scene->n_leaves; i++) {
+        const double traced[2] = {truth->front[i], truth->back[i]};
+        for (int face = 0; face < 2; face++) {
+            double own = (double)cells->leaf_sun[i][face];
+            sum[0] += own;
+            sum[1] += traced[face];
+            error += pow(own - traced[face], 2);
+            squares_sum += pow(traced[face], 2);
+        }
+    }
+    assert_close(sum[0], sum[1], 0.01, 0);
+    assert_true(sqrt(error / squares_sum) < 0.15); /* by cells .4 */
+    pps_irradiance_free(truth);
+    pps_cells_free(cells);
+    pps_scene_free(scene);
+}
+
 static void threads_never_change_a_bit(void **state) {
     (void)state;
     pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 4, 1500, 8);
@@ -190,6 +250,7 @@ static void threads_never_change_a_bit(void **state) {
     assert_memory_equal(one->depth, four->depth, n * 22 * sizeof *one->depth);
     assert_memory_equal(one->visibility, four->visibility, n * 22 * sizeof *one->depth);
     assert_memory_equal(one->sun_depth, four->sun_depth, n * sizeof *one->sun_depth);
+    assert_memory_equal(one->leaf_sun, four->leaf_sun, 1500 * sizeof *one->leaf_sun);
     assert_memory_equal(one->cell_of, four->cell_of, 1500 * sizeof *one->cell_of);
     pps_cells_free(one);
     pps_cells_free(four);
@@ -203,6 +264,10 @@ static void what_cannot_be_done_is_refused(void **state) {
     pps_cells_options negative = {.across = -1}, none = {.samples = -1},
                       fine = {.across = 100000}, few = {.most_points = -1};
     assert_int_equal(pps_cells_create(scene, &few, &cells), PPS_ERR_ARGUMENT);
+    few = (pps_cells_options){.sun_samples = -1};
+    assert_int_equal(pps_cells_create(scene, NULL, &cells), PPS_OK);
+    assert_int_equal(pps_cells_set_sun(cells, scene, &few), PPS_ERR_ARGUMENT);
+    pps_cells_free(cells);
     assert_int_equal(pps_cells_create(scene, &negative, &cells), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_cells_create(scene, &none, &cells), PPS_ERR_ARGUMENT);
     assert_int_equal(pps_cells_create(scene, &fine, &cells), PPS_ERR_ARGUMENT);
@@ -224,6 +289,8 @@ int main(void) {
         cmocka_unit_test(grids_cover_the_leaves),
         cmocka_unit_test(a_layer_attenuates_as_beer_has_it),
         cmocka_unit_test(few_points_a_cell_are_a_fair_sample),
+        cmocka_unit_test(points_are_fair_beside_a_hole),
+        cmocka_unit_test(leaves_own_sunlight_is_what_falls_on_them),
         cmocka_unit_test(threads_never_change_a_bit),
         cmocka_unit_test(what_cannot_be_done_is_refused),
     };

@@ -391,6 +391,34 @@ static void the_escape_factor_measures_what_cells_cannot_see(void **state) {
     box_free(&b);
 }
 
+/* One radiance all around and leaves that do not absorb: it is the same within, whether or
+ * not some leaves of a cell are open and others hidden. To 2 %, for escape factors are
+ * means over 3^3 cells. */
+static void an_enclosure_of_one_radiance_stays_so(void **state) {
+    (void)state;
+    pps_light_field *field[2];
+    box b = ball_of(false);
+    pps_light_options sky = {.sources = PPS_SKY | PPS_SKY_INDIRECT};
+    set_albedos(&b, 1, (double[]){1});
+    b.scene->sky = (pps_sky){.zenith = {1}, .horizon = {1}, .below = {1}};
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < b.cells.n_cells; i++) {
+            b.cells.both_clear[i] = k == 0 ? 0.16 : 0.24;
+        }
+        field[k] = solve(&b, &sky);
+    }
+    double sum[2] = {0, 0};
+    for (size_t i = 0; i < b.cells.n_cells; i++) {
+        sum[0] += b.cells.area[i] * (double)field[0]->diffuse[i];
+        sum[1] += b.cells.area[i] * (double)field[1]->diffuse[i];
+    }
+    assert_true(sum[0] > 0);
+    assert_close(sum[1], sum[0], 0.02, 0);
+    pps_light_field_free(field[0]);
+    pps_light_field_free(field[1]);
+    box_free(&b);
+}
+
 static void the_table_finds_its_models_and_refuses_what_they_lack(void **state) {
     (void)state;
     box b = ball_of(false);
@@ -430,6 +458,7 @@ int main(void) {
         cmocka_unit_test(threads_do_not_change_the_answer),
         cmocka_unit_test(a_moved_sun_starts_from_the_last_answer),
         cmocka_unit_test(the_escape_factor_measures_what_cells_cannot_see),
+        cmocka_unit_test(an_enclosure_of_one_radiance_stays_so),
         cmocka_unit_test(the_table_finds_its_models_and_refuses_what_they_lack),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
