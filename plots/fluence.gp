@@ -1,4 +1,4 @@
-# The fluence with depth: every method, and its error against the exact one.
+# The fluence with depth of SPP and its relatives, and their errors against `exact`.
 csv = ARG1
 png = ARG2
 load "style.gp"
@@ -34,7 +34,7 @@ w = (1.0 - left - right) / cases
 h = (1.0 - top - middle - bottom) / 2
 
 set label 1 at screen 0.5,0.975 center font ",16" \
-    "Fluence with depth: every method, and its error   (albedo 0.95, thickness 10)"
+    "Fluence with depth: SPP and its relatives beside the exact one, and their errors   (albedo 0.95, thickness 10)"
 set label 2 at screen 0.5,0.94 center \
     "a dip of an error is where it changes sign; spp and hemispheric are one at μ_0 = 0.5"
 

@@ -9,12 +9,22 @@ set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
+usage() {
+    printf 'usage: scripts/bench-peers.sh [--quick] [BUILD-FOLDER]\n' >&2
+    exit 2
+}
+
 quick=()
 if [[ ${1-} == --quick ]]; then
     quick=(--quick)
     shift
 fi
-(($# <= 1)) || die "usage: scripts/bench-peers.sh [--quick] [BUILD-FOLDER]"
+if (($# > 1)) || [[ ${1-} == -* ]]; then
+    usage
+elif (($#)) && [[ ! -d $1 ]]; then
+    printf 'error: BUILD-FOLDER is a folder with libppscat.so in it, not %s\n' "$1" >&2
+    exit 2
+fi
 
 out=$root/build/peers
 peers=$root/scripts/peers

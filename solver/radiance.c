@@ -21,6 +21,7 @@
 #include "core/legendre.h"
 #include "core/series.h"
 #include "core/vector.h"
+#include "solver/aureole.h"
 #include "solver/dom.h"
 #include "solver/rays.h"
 
@@ -44,6 +45,8 @@ typedef struct {
     double *legendre;         /* n_moments rows */
     double *angle, *cosine;   /* n_phi: azimuth within +-180; cos(m phi) */
     double *beam;             /* n_beams x rays: the beam's ray integral */
+    double *aureole;          /* n_tau x n_down: integrals of the beam in hand */
+    double *folded;           /* n_moments, of the aureole */
     double *source;           /* a row */
     double *series;           /* PPS_LANES beams x PPS_SERIES_TERMS rows */
     double *term[2];          /* n_beams x rays: this order, the one before */
@@ -89,6 +92,8 @@ static size_t field_layout(field *s, double *memory) {
         {&s->angle, s->at->n_phi},
         {&s->cosine, s->at->n_phi},
         {&s->beam, s->n_beams * rays},
+        {&s->aureole, n_tau * s->view->n_down},
+        {&s->folded, (size_t)d->n_moments},
         {&s->source, row},
         {&s->series, PPS_LANES * PPS_SERIES_TERMS * row},
         {&s->term[0], s->n_beams * rays},
@@ -229,7 +234,25 @@ PPS_CLONES static void spread_source(size_t n_tau, size_t n,
     }
 }
 
+/* The ray integrals of the aureole of beam b, rows at each depth. */
+static void aureole_integrals(field *s, size_t b) {
+    size_t n = s->view->n_down;
+    for (size_t k = 0; k < s->at->n_tau; k++) {
+        pps_aureole_rays(s->dom, s->dom->beams.mu0[s->first + b], s->at->tau[k], n,
+                         s->view->c, s->aureole + k * n);
+    }
+}
+
+static void correct_aureole(field *s, double mu0, double cosine, double *value) {
+    size_t n = s->view->n_down;
+    pps_aureole_sources(s->dom, mu0, cosine, n, s->view->mu, s->folded, s->source);
+    for (size_t k = 0; k < s->at->n_tau; k++) {
+        pps_rays_add_product(n, s->source, s->aureole + k * n, value + k * s->n_slots);
+    }
+}
+
 static void first_light(field *s) {
+    bool aureole = pps_aureole_matters(s->dom);
     const pps_beams *beams = &s->dom->beams;
     for (size_t i = 0; i < s->at->n_phi; i++) {
         s->angle[i] = remainder(s->at->phi[i], 360);
@@ -238,6 +261,9 @@ static void first_light(field *s) {
     for (size_t b = 0; b < s->n_beams; b++) {
         double *value = s->value + b * s->at->n_phi * s->rays;
         beam_integrals(s, b);
+        if (aureole) {
+            aureole_integrals(s, b);
+        }
         for (size_t i = 0; i < s->at->n_phi; i++, value += s->rays) {
             if (beams->sky) {
                 for (size_t ray = 0; ray < s->rays; ray++) {
@@ -245,9 +271,13 @@ static void first_light(field *s) {
                     value[ray] = down ? s->ect[ray] : 0;
                 }
             } else {
-                single_sources(s, beams->mu0[s->first + b], s->cosine[i], s->source);
+                double mu0 = beams->mu0[s->first + b];
+                single_sources(s, mu0, s->cosine[i], s->source);
                 spread_source(s->at->n_tau, s->n_slots, s->source,
                               s->beam + b * s->rays, value);
+                if (aureole) {
+                    correct_aureole(s, mu0, s->cosine[i], value);
+                }
             }
         }
     }
