@@ -94,14 +94,13 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
                                  .beta = s->source_b + at,
                                  .psi = s->edge_psi[side] + at,
                                  .phi = s->edge_phi[side] + at};
-            pps_series_expand(&series, 0, side ? -w : w, order->k[j], a[side], b[side]);
+            pps_series_expand(&series, side ? -w : w, order->k[j], a[side], b[side]);
         }
         for (size_t k = 0; k < n_tau; k++) {
             double psi[PPS_LANES], phi[PPS_LANES];
             int side = tau[k] > w / 2;
             double u = (side ? w - tau[k] : tau[k]) / w;
-            pps_series_value(a[side], u, psi);
-            pps_series_value(b[side], u, phi);
+            pps_series_value(a[side], b[side], u, psi, phi);
             add_values(&of, psi, phi, &sum[k]);
         }
     }
@@ -119,9 +118,8 @@ static void decays_at(const pps_order *order, double tau, double rest, double *d
 
 /* The exponentials, homogeneous of modes k w >= 1 and particular of all. */
 PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
-                                        size_t first, size_t n,
-                                        const double *decay, const double *eqt,
-                                        mode_sums *out) {
+                                        size_t first, size_t n, const double *decay,
+                                        const double *eqt, mode_sums *out) {
     const pps_solution *s = &order->solution;
     size_t n_modes = (size_t)order->n;
     for (size_t at = 0; at < n; at += FOUR) {
@@ -305,7 +303,8 @@ PPS_CLONES static void beams_at(size_t n, const double *rates, size_t n_tau,
         beams->direct[all + l] = beams->scaled[all + l] = beams->peak[all + l] = 0;
     }
     for (size_t at = 0; at < all; at += FOUR) {
-        four here = four_exp(four_at(beams->scaled + at)), z = four_at(beams->peak + at);
+        four here = four_exp(four_at(beams->scaled + at)),
+             z = four_at(beams->peak + at);
         four_to(beams->direct + at, four_exp(four_at(beams->direct + at)));
         four_to(beams->scaled + at, here);
         four_to(beams->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
