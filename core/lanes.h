@@ -45,19 +45,18 @@ PPS_LANE four four_exp(four x) {
     const double LN2_HIGH = 0x1.62e42feep-1, LN2_LOW = 0x1.a39ef35793c76p-33;
     four shifted = x * INVERSE_LN2 + SHIFT, n = shifted - SHIFT;
     four r = (x - n * LN2_HIGH) - n * LN2_LOW;
-    four p = four_of(1.0 / 6227020800);
-    p = p * r + 1.0 / 479001600;
-    p = p * r + 1.0 / 39916800;
-    p = p * r + 1.0 / 3628800;
-    p = p * r + 1.0 / 362880;
-    p = p * r + 1.0 / 40320;
-    p = p * r + 1.0 / 5040;
-    p = p * r + 1.0 / 720;
-    p = p * r + 1.0 / 120;
-    p = p * r + 1.0 / 24;
-    p = p * r + 1.0 / 6;
-    p = p * r + 0.5;
-    p = 1 + (r + r * r * p);
+    four r2 = r * r, even = four_of(1.0 / 479001600), odd = four_of(1.0 / 6227020800);
+    even = even * r2 + 1.0 / 3628800; /* odd powers apart: half as long to wait */
+    odd = odd * r2 + 1.0 / 39916800;
+    even = even * r2 + 1.0 / 40320;
+    odd = odd * r2 + 1.0 / 362880;
+    even = even * r2 + 1.0 / 720;
+    odd = odd * r2 + 1.0 / 5040;
+    even = even * r2 + 1.0 / 24;
+    odd = odd * r2 + 1.0 / 120;
+    even = even * r2 + 0.5;
+    odd = odd * r2 + 1.0 / 6;
+    four p = 1 + (r + r2 * (even + r * odd));
     four result = (four)((four_bits)p + ((four_bits)shifted << 52)); /* times 2^n */
     return four_choose(x < -708, four_of(0), result);
 }

@@ -5,38 +5,52 @@
 
 #include "core/lanes.h"
 
-/* Lanes `at` to `at` + 3 of a block. */
-PPS_LANE void expand(const pps_series *series, size_t first, size_t at, double step,
-                     double k2, double *a, double *b) {
-    size_t i = first + at;
-    four q = four_at(series->q + i), e = four_at(series->beam + i); /* of e^(-q tau) */
-    four alpha = four_at(series->alpha + i), beta = four_at(series->beta + i);
-    four psi = four_at(series->psi + i), phi = four_at(series->phi + i);
-    for (size_t d = 0; d < PPS_SERIES_TERMS; d++) {
+/* Half a block: the state, and the beam as it goes on. */
+typedef struct {
+    four psi, phi, e;
+    four q, alpha, beta;
+} half_block;
+
+PPS_LANE half_block half_at(const pps_series *series, size_t i) {
+    return (half_block){four_at(series->psi + i),   four_at(series->phi + i),
+                        four_at(series->beam + i),  four_at(series->q + i),
+                        four_at(series->alpha + i), four_at(series->beta + i)};
+}
+
+/* One term further. */
+PPS_LANE void expand(half_block *x, double h, double k2, double *a, double *b) {
+    four psi_next = h * (x->beta * x->e - x->phi);
+    four_to(a, x->psi);
+    four_to(b, x->phi);
+    x->phi = h * (x->alpha * x->e - k2 * x->psi);
+    x->psi = psi_next;
+    x->e = -h * (x->e * x->q);
+}
+
+PPS_CLONES void pps_series_expand(const pps_series *series, double step, double k,
+                                  double *restrict a, double *restrict b) {
+    half_block left = half_at(series, 0), right = half_at(series, FOUR);
+    for (size_t d = 0; d < PPS_SERIES_TERMS; d++, a += PPS_LANES, b += PPS_LANES) {
         double h = step * (1.0 / (double)(d + 1));
-        four psi_next = h * (beta * e - phi);
-        four_to(a + d * PPS_LANES + at, psi);
-        four_to(b + d * PPS_LANES + at, phi);
-        phi = h * (alpha * e - k2 * psi);
-        psi = psi_next;
-        e = -h * (e * q);
+        expand(&left, h, k * k, a, b);
+        expand(&right, h, k * k, a + FOUR, b + FOUR);
     }
 }
 
-PPS_CLONES void pps_series_expand(const pps_series *series, size_t first, double step,
-                                  double k, double *restrict a, double *restrict b) {
-    expand(series, first, 0, step, k * k, a, b);
-    expand(series, first, FOUR, step, k * k, a, b);
-}
-
-PPS_CLONES void pps_series_value(const double *a, double u, double *value) {
-    four left = {0}, right = {0};
-    for (int d = PPS_SERIES_TERMS; d-- > 0;) {
-        left = left * u + four_at(a + d * PPS_LANES);
-        right = right * u + four_at(a + d * PPS_LANES + FOUR);
+PPS_CLONES void pps_series_value(const double *a, const double *b, double u,
+                                 double *psi, double *phi) {
+    four psi_left = {0}, psi_right = {0}, phi_left = {0}, phi_right = {0};
+    for (size_t d = u == 0 ? 1 : PPS_SERIES_TERMS; d-- > 0;) {
+        const double *ad = a + d * PPS_LANES, *bd = b + d * PPS_LANES;
+        psi_left = psi_left * u + four_at(ad);
+        psi_right = psi_right * u + four_at(ad + FOUR);
+        phi_left = phi_left * u + four_at(bd);
+        phi_right = phi_right * u + four_at(bd + FOUR);
     }
-    four_to(value, left);
-    four_to(value + FOUR, right);
+    four_to(psi, psi_left);
+    four_to(psi + FOUR, psi_right);
+    four_to(phi, phi_left);
+    four_to(phi + FOUR, phi_right);
 }
 
 /* m_d(z) = z int_0^1 v^d e^(-z (1 - v)) dv obeys m_d = 1 - (d/z) m_(d-1). Upwards that

@@ -19,20 +19,20 @@
 
 enum { PPS_SERIES_TERMS = 26 };
 
-/* What a series is made from, one number a beam (`padded` of them). */
+/* What a series is made from, one number a beam of a block (PPS_LANES of them). */
 typedef struct pps_series {
     const double *q, *beam; /* beam: e^(-q tau) at the edge */
     const double *alpha, *beta;
     const double *psi, *phi; /* at the edge */
 } pps_series;
 
-/* a[d * PPS_LANES + lane] and b likewise, for the block of beams that starts at `first`.
- * step = w from the top, -w from the bottom. */
-void pps_series_expand(const pps_series *series, size_t first, double step, double k,
+/* a[d * PPS_LANES + lane] and b likewise. step = w from the top, -w from the bottom. */
+void pps_series_expand(const pps_series *series, double step, double k,
                        double *restrict a, double *restrict b);
 
-/* sum over d of a_d u^d, a block of beams. */
-void pps_series_value(const double *a, double u, double *value);
+/* psi = sum over d of a_d u^d and phi likewise, a block of beams. */
+void pps_series_value(const double *a, const double *b, double u, double *psi,
+                      double *phi);
 
 /* moment[d * padded + i] = c int_0^t (s/w)^d e^(-c (t - s)) ds, d < PPS_SERIES_TERMS, for
  * rays i of rates c[i] and one t; ect = e^(-c t), root = e^(-c t / 2). */

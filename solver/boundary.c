@@ -203,9 +203,8 @@ static void thin_parts(pps_order *order, int j, const pps_beams *beams, double w
                              .beta = order->beta + row + first,
                              .psi = zero,
                              .phi = zero};
-        pps_series_expand(&series, 0, w, order->k[j], a, b);
-        pps_series_value(a, 1, psi);
-        pps_series_value(b, 1, phi);
+        pps_series_expand(&series, w, order->k[j], a, b);
+        pps_series_value(a, b, 1, psi, phi);
         for (size_t i = first; i < beams->n && i < first + PPS_LANES; i++) {
             if (is_thin(w, beams->q[i])) {
                 s->p[row + i] = s->r[row + i] = 0;

@@ -94,14 +94,13 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
                                  .beta = s->source_b + at,
                                  .psi = s->edge_psi[side] + at,
                                  .phi = s->edge_phi[side] + at};
-            pps_series_expand(&series, 0, side ? -w : w, order->k[j], a[side], b[side]);
+            pps_series_expand(&series, side ? -w : w, order->k[j], a[side], b[side]);
         }
         for (size_t k = 0; k < n_tau; k++) {
             double psi[PPS_LANES], phi[PPS_LANES];
             int side = tau[k] > w / 2;
             double u = (side ? w - tau[k] : tau[k]) / w;
-            pps_series_value(a[side], u, psi);
-            pps_series_value(b[side], u, phi);
+            pps_series_value(a[side], b[side], u, psi, phi);
             add_values(&of, psi, phi, &sum[k]);
         }
     }

@@ -25,7 +25,7 @@ static void clear_upper(int n, double *a) {
 }
 
 /* Calls of LAPACK and BLAS cost as much as the work itself at a few unknowns. */
-enum { SMALL = 16 };
+enum { SMALL = 16, SMALL_SOLVE = 32 };
 
 PPS_CLONES static bool small_cholesky(int n, double *a) {
     double l[SMALL * SMALL]; /* columns padded, so that blocks stay inside */
@@ -96,7 +96,7 @@ PPS_CLONES static void small_solve_transposed(int n, const double *lower, int n_
                                               double *b) {
     for (int first = 0; first < n_rhs; first += FOUR) {
         int columns = n_rhs - first < FOUR ? n_rhs - first : FOUR;
-        double *at = b + first * n, row[SMALL][FOUR] = {{0}};
+        double *at = b + first * n, row[SMALL_SOLVE][FOUR] = {{0}};
         for (int l = 0; l < columns; l++) {
             for (int i = 0; i < n; i++) {
                 row[i][l] = at[i + l * n];
@@ -126,7 +126,7 @@ void pps_lower_solve(int n, const double *lower, bool transposed, double *b) {
 }
 
 void pps_lower_solve_transposed(int n, const double *lower, int n_rhs, double *b) {
-    if (n <= SMALL) {
+    if (n <= SMALL_SOLVE) {
         small_solve_transposed(n, lower, n_rhs, b);
         return;
     }

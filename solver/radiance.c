@@ -373,7 +373,7 @@ static void add_series_mode(field *s, const pps_order *order, size_t j, size_t b
                              .beta = solution->source_b + at,
                              .psi = solution->edge_psi[!down] + at,
                              .phi = solution->edge_phi[!down] + at};
-        pps_series_expand(&series, 0, down ? w : -w, order->k[j], a, b);
+        pps_series_expand(&series, down ? w : -w, order->k[j], a, b);
         for (size_t l = 0; l < n_block; l++) {
             pps_series_source(down ? s->view->n_down : s->view->n_up, s->n_slots,
                               ge + row, go + row, a + l, b + l,

@@ -26,7 +26,7 @@ static void expand(pps_hemispheric *h, const pps_mode *mode) {
         }
     }
     pps_series series = {lane[0], lane[1], lane[2], lane[3], lane[4], lane[5]};
-    pps_series_expand(&series, 0, mode->w, mode->k, a, b);
+    pps_series_expand(&series, mode->w, mode->k, a, b);
     for (int d = 0; d < PPS_SERIES_TERMS; d++) {
         h->series[d] = 2 * a[d * PPS_LANES];
     }
