@@ -85,5 +85,7 @@ int table_write(output *out, const table_row *row) {
     csv_number(&out->csv, row->ratio);
     csv_number(&out->csv, row->spread);
     csv_number(&out->csv, row->seconds_per_cell);
+    csv_number(&out->csv, row->rms_leaf);
+    csv_number(&out->csv, row->seconds_per_leaf);
     return output_end_row(out, row->refused_by, row->refusal);
 }

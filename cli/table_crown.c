@@ -21,7 +21,8 @@
 #include "system.h"
 #include "values.h"
 
-enum { N_SEEDS = 3, DEFAULT_RAYS = 2000000 };
+/* Light rays of the reference: of `crowns` enough to judge Monte Carlo itself. */
+enum { N_SEEDS = 3, RAYS_OF_3 = 2000000, RAYS_OF_CROWNS = 10000000 };
 
 static const double ALBEDO = 0.95;
 
@@ -69,9 +70,10 @@ static table_row summarize(const char *number, const char *row, double paper, in
     table_row r = {.table = number,
                    .row = row,
                    .column = contender->label,
-                   .method = contender->model->name,
+                   .method = contender->model ? contender->model->name : "mc",
                    .paper = paper,
-                   .seconds_per_cell = INFINITY};
+                   .seconds_per_cell = INFINITY,
+                   .seconds_per_leaf = INFINITY};
 
     for (size_t seed = 0; seed < N_SEEDS; seed++) {
         const pps_score *s = &score[seed * n];
@@ -79,7 +81,9 @@ static table_row summarize(const char *number, const char *row, double paper, in
         r.ours += percent / N_SEEDS;
         r.rms_rel += 100 * s->by_count[level] / N_SEEDS;
         r.ratio += s->brightness / N_SEEDS;
+        r.rms_leaf += 100 * s->leaves / N_SEEDS;
         r.seconds_per_cell = fmin(r.seconds_per_cell, s->seconds_per_cell);
+        r.seconds_per_leaf = fmin(r.seconds_per_leaf, s->seconds_per_leaf);
         least = fmin(least, percent);
         most = fmax(most, percent);
     }
@@ -93,7 +97,7 @@ typedef struct {
     int threads;
     progress_meter meter;
     size_t n;
-    const pps_contender *contender;
+    pps_contender *contender;
     pps_score *score; /* [seed * n + contender] */
 } table;
 
@@ -131,7 +135,8 @@ static int crown_of_table_3(table *t, output *out, const crown_row *crown) {
             table_row r =
                 summarize("3", row, paper_figure(crown, t->contender[i].label), level,
                           t->n, &t->contender[i], t->score + i);
-            r.seconds_per_cell = CSV_EMPTY; /* the table is reproducible to the byte */
+            /* The table is reproducible to the byte. */
+            r.seconds_per_cell = r.seconds_per_leaf = CSV_EMPTY;
             rc = table_write(out, &r);
         }
     }
@@ -163,7 +168,8 @@ static pps_status score_scene(table *t, const pps_scene *scene, uint64_t seed,
     if (!status)
         status = pps_trace_light(scene, &trace, &truth, NULL);
     if (!status)
-        status = pps_score_models(scene, cells, truth, 0, t->n, t->contender, score);
+        status =
+            pps_score_models(scene, cells, truth, 0, t->n, t->contender, ~seed, score);
     pps_irradiance_free(truth);
     pps_cells_free(cells);
     return status;
@@ -225,10 +231,27 @@ static int rows_beside_cost(table *t, output *out, const invocation *call,
     return rc;
 }
 
-static int read_table(const invocation *call, table *t, bool *progress) {
+/* The library's contenders; `paths`: and Monte Carlo by few rays and many. */
+static int list_contenders(table *t, bool paths) {
+    size_t n_models, n_paths;
+    const pps_contender *model = pps_contender_table(&n_models),
+                        *path = pps_contender_paths(&n_paths);
+
+    t->n = n_models + (paths ? n_paths : 0);
+    t->contender = malloc(t->n * sizeof *t->contender);
+    t->score = malloc(N_SEEDS * t->n * sizeof *t->score);
+    if (!t->contender || !t->score)
+        return cli_no_memory();
+    memcpy(t->contender, model, n_models * sizeof *model);
+    memcpy(t->contender + n_models, path, (t->n - n_models) * sizeof *path);
+    return CLI_DONE;
+}
+
+static int read_table(const invocation *call, bool crowns_table, table *t,
+                      bool *progress) {
     int rc;
 
-    *t = (table){.rays = DEFAULT_RAYS};
+    *t = (table){.rays = crowns_table ? RAYS_OF_CROWNS : RAYS_OF_3};
     if ((rc = value_count(call, OPT_SEED, 0, UINT64_MAX - N_SEEDS, &t->seed)) ||
         (rc = value_threads(call, &t->threads)) ||
         (rc = value_progress(call, progress)))
@@ -244,7 +267,7 @@ static int run(const invocation *call, bool crowns_table) {
     output out;
     bool progress;
     pps_scene *scene = NULL;
-    int rc = read_table(call, &t, &progress);
+    int rc = read_table(call, crowns_table, &t, &progress);
 
     if (rc == CLI_DONE && crowns_table)
         rc = open_mesh(call, &scene);
@@ -254,16 +277,16 @@ static int run(const invocation *call, bool crowns_table) {
         pps_scene_free(scene);
         return rc;
     }
-    t.contender = pps_contender_table(&t.n);
-    t.score = malloc(N_SEEDS * t.n * sizeof *t.score);
+    rc = list_contenders(&t, crowns_table);
     system_watch_signals();
     progress_start(&t.meter, progress,
                    N_SEEDS * (crowns_table ? (size_t)N_BESIDE_COST + (scene != NULL)
                                            : (size_t)N_CROWNS));
-    rc = !t.score       ? cli_no_memory()
-         : crowns_table ? rows_beside_cost(&t, &out, call, scene)
-                        : rows_of_table_3(&t, &out);
+    if (rc == CLI_DONE)
+        rc = crowns_table ? rows_beside_cost(&t, &out, call, scene)
+                          : rows_of_table_3(&t, &out);
     progress_end(&t.meter);
+    free(t.contender);
     free(t.score);
     pps_scene_free(scene);
     return output_close(&out, rc);

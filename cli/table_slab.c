@@ -142,6 +142,8 @@ static int write_cell(output *out, const paper_table *table, size_t row,
                                          .ratio = CSV_EMPTY,
                                          .spread = CSV_EMPTY,
                                          .seconds_per_cell = CSV_EMPTY,
+                                         .rms_leaf = CSV_EMPTY,
+                                         .seconds_per_leaf = CSV_EMPTY,
                                          .refused_by = c->refused_by,
                                          .refusal = c->refusal});
 }

@@ -11,7 +11,8 @@
 /* A row of any of them; the columns are described in columns.c. */
 typedef struct {
     const char *table, *row, *column, *method;
-    double paper, ours, rms_rel, ratio, spread, seconds_per_cell; /* or CSV_EMPTY */
+    double paper, ours, rms_rel, ratio, spread, seconds_per_cell, rms_leaf,
+        seconds_per_leaf;         /* or CSV_EMPTY */
     const pps_method *refused_by; /* where `refusal` is said */
     const char *refusal;          /* static text; NULL: not refused */
 } table_row;

@@ -109,6 +109,32 @@ static void add_category(squares *s, const category *c) {
     s->n++;
 }
 
+/* ---- leaf by leaf ---- */
+
+static double both_faces(const pps_irradiance *light, size_t at) {
+    return light->front[at] + light->back[at];
+}
+
+/* What chance adds to a leaf of the reference, squared. Of a face that no ray has met
+ * nothing is known: its error says what one ray would have brought. */
+static double variance(const pps_irradiance *truth, size_t at) {
+    return (truth->front[at] > 0 ? pow(truth->front_error[at], 2) : 0) +
+           (truth->back[at] > 0 ? pow(truth->back_error[at], 2) : 0);
+}
+
+static double leaf_error(const pps_scene *scene, const member *members,
+                         const pps_irradiance *model, const pps_irradiance *truth,
+                         int band) {
+    double error = 0, size = 0;
+    for (size_t i = 0; i < scene->n_leaves; i++) {
+        size_t at = members[i].leaf * (size_t)scene->n_bands + (size_t)band;
+        double want = both_faces(truth, at), chance = variance(truth, at);
+        error += members[i].area * (pow(both_faces(model, at) - want, 2) - chance);
+        size += members[i].area * (pow(want, 2) - chance);
+    }
+    return size > 0 ? sqrt(fmax(error, 0) / size) : 0;
+}
+
 static double root_ratio(const double s[2]) { return s[1] > 0 ? sqrt(s[0] / s[1]) : 0; }
 
 static void score_band(const pps_scene *scene, const member *members,
@@ -132,6 +158,7 @@ static void score_band(const pps_scene *scene, const member *members,
         }
     }
     score->brightness = sum[0] / sum[1];
+    score->leaves = leaf_error(scene, members, model, truth, band);
     for (int k = 0; k < PPS_SCORE_LEVELS; k++) {
         score->category[k] = root_ratio(level[k].category);
         score->by_count[k] = root_ratio(level[k].by_count);
@@ -142,53 +169,86 @@ static void score_band(const pps_scene *scene, const member *members,
 
 /* ---- contenders ---- */
 
-static double now(void) {
-    struct timespec t;
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+/* Processor time, whatever else runs; contenders run on one thread. */
+static double now(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/* What a contender is run with, and what it took. */
+typedef struct {
+    const pps_scene *scene;
+    const pps_cells *cells;
+    const float *att; /* of pps_leaf_attenuation */
+    uint64_t seed;
+    double cells_seconds, leaves_seconds; /* the least of some times, for other programs
+                                             only add to it */
+} trial;
+
+/* On one core, whose time means the same whatever else runs. */
+static pps_light_options alone(const trial *t, const pps_contender *c) {
+    pps_light_options options = c->options;
+    options.threads = options.threads ? options.threads : 1;
+    options.att = t->att;
+    return options;
 }
 
-/* Solve from no answer, with what is made once a scene at hand; the least of some times,
- * for other programs only add to it. */
-static pps_status time_solve(const pps_contender *c, const pps_scene *scene,
-                             const pps_cells *cells, pps_light_field **field,
-                             double *seconds) {
-    pps_status status = PPS_OK;
-    *seconds = INFINITY;
-    for (int i = 0; i < N_TIMED && !status; i++) {
-        double start = now();
-        pps_light_field_forget(*field);
-        status = pps_light_field_solve(c->model, scene, cells, &c->options, field);
-        *seconds = fmin(*seconds, now() - start);
+/* Cells from no answer, with what is made once a scene at hand; then leaves. */
+static pps_status run_field(trial *t, const pps_contender *c,
+                            const pps_light_options *options, pps_light_field *field,
+                            pps_irradiance **out) {
+    double start = now();
+    pps_light_field_forget(field);
+    pps_status status =
+        pps_light_field_solve(c->model, t->scene, t->cells, options, &field);
+    double solved = now();
+    if (!status) {
+        status =
+            pps_light_field_leaves(field, t->scene, t->cells, options->sources, out);
     }
+    t->cells_seconds = fmin(t->cells_seconds, solved - start);
+    t->leaves_seconds = fmin(t->leaves_seconds, now() - solved);
     return status;
 }
 
-/* Solve and light the leaves, and time it; on one core, whose time means the same
- * whatever else runs. */
-static pps_status run_model(const pps_contender *given, const pps_scene *scene,
-                            const pps_cells *cells, double *seconds,
-                            pps_irradiance **out) {
-    pps_contender alone = *given, *c = &alone;
-    c->options.threads = c->options.threads ? c->options.threads : 1;
+/* A model without cells. */
+static pps_status run_leaves(trial *t, const pps_contender *c,
+                             const pps_light_options *options, pps_irradiance **out) {
+    double start = now();
+    pps_status status = pps_light_model_run(c->model, t->scene, t->cells, options, out);
+    t->leaves_seconds = fmin(t->leaves_seconds, now() - start);
+    return status;
+}
+
+static pps_status run_model(trial *t, const pps_contender *c, pps_irradiance **out) {
+    pps_light_options options = alone(t, c);
     pps_light_field *field = NULL;
-    if (!c->model->ops->solve) {
-        double start = now();
-        pps_status status =
-            pps_light_model_run(c->model, scene, cells, &c->options, out);
-        *seconds = now() - start;
-        return status;
+    bool has_field = c->model->ops->solve;
+    pps_status status = PPS_OK;
+    if (has_field) { /* what is made once a scene */
+        status = pps_light_field_solve(c->model, t->scene, t->cells, &options, &field);
     }
-    pps_status status =
-        pps_light_field_solve(c->model, scene, cells, &c->options, &field);
-    if (!status) {
-        status = time_solve(c, scene, cells, &field, seconds);
-    }
-    if (!status) {
-        status = pps_light_field_leaves(field, scene, cells, c->options.sources, out);
+    for (int i = 0; i < N_TIMED && !status; i++) {
+        pps_irradiance_free(*out);
+        *out = NULL;
+        status = has_field ? run_field(t, c, &options, field, out)
+                           : run_leaves(t, c, &options, out);
     }
     pps_light_field_free(field);
     return status;
+}
+
+static pps_status run_paths(trial *t, const pps_contender *c, pps_irradiance **out) {
+    pps_trace_options options = {.rays = c->rays, .seed = t->seed, .threads = 1};
+    double start = now();
+    pps_status status = pps_trace_light(t->scene, &options, out, NULL);
+    t->leaves_seconds = now() - start;
+    return status;
+}
+
+/* Light the leaves, and time it. */
+static pps_status run_contender(trial *t, const pps_contender *c,
+                                pps_irradiance **out) {
+    t->cells_seconds = t->leaves_seconds = INFINITY;
+    *out = NULL;
+    return c->model ? run_model(t, c, out) : run_paths(t, c, out);
 }
 
 static double cells_with_leaves(const pps_cells *cells) {
@@ -199,35 +259,68 @@ static double cells_with_leaves(const pps_cells *cells) {
     return n;
 }
 
+/* Where one time is not there, the other is all there is. */
+static void note_times(const trial *t, pps_score *score) {
+    double seconds = t->leaves_seconds, cells = t->leaves_seconds;
+    if (isfinite(t->cells_seconds)) {
+        seconds += t->cells_seconds;
+        cells = t->cells_seconds;
+    }
+    score->seconds_per_cell = cells / cells_with_leaves(t->cells);
+    score->seconds_per_leaf = seconds / (double)t->scene->n_leaves;
+}
+
+static pps_status score_one(trial *t, const pps_contender *c, const member *members,
+                            const pps_irradiance *reference, pps_score *score) {
+    pps_irradiance *light = NULL;
+    pps_status status = run_contender(t, c, &light);
+    for (int b = 0; b < t->scene->n_bands && !status; b++) {
+        score_band(t->scene, members, light, reference, b, &score[b]);
+        note_times(t, &score[b]);
+    }
+    pps_irradiance_free(light);
+    return status;
+}
+
+/* Attenuations, where a contender takes them. */
+static pps_status need_attenuations(const pps_scene *scene, size_t n,
+                                    const pps_contender *contender, float **att) {
+    bool needed = false;
+    for (size_t i = 0; i < n; i++) {
+        needed |= contender[i].model && contender[i].model->takes_attenuations;
+    }
+    if (!needed) {
+        return PPS_OK;
+    }
+    *att = malloc((PPS_OCTANTS * scene->n_leaves + 1) * sizeof **att);
+    return *att ? pps_leaf_attenuation(scene, NULL, *att) : PPS_ERR_MEMORY;
+}
+
 pps_status pps_score_models(const pps_scene *scene, const pps_cells *cells,
                             const pps_irradiance *reference, double bin, size_t n,
-                            const pps_contender *contender, pps_score *score) {
+                            const pps_contender *contender, uint64_t seed,
+                            pps_score *score) {
     if (!scene || !cells || !reference || reference->n_leaves != scene->n_leaves ||
-        reference->n_bands != scene->n_bands || !(bin >= 0)) {
+        reference->n_bands != scene->n_bands || !reference->front_error ||
+        !(bin >= 0)) {
         return PPS_ERR_ARGUMENT;
     }
+    float *att = NULL;
     member *members = sort_leaves(scene, cells, bin > 0 ? bin : DEFAULT_BIN);
-    pps_status status = members ? PPS_OK : PPS_ERR_MEMORY;
-    size_t bands = (size_t)scene->n_bands;
+    pps_status status =
+        members ? need_attenuations(scene, n, contender, &att) : PPS_ERR_MEMORY;
+    trial t = {.scene = scene, .cells = cells, .att = att, .seed = seed};
     for (size_t i = 0; i < n && !status; i++) {
-        pps_irradiance *model = NULL;
-        double seconds = 0;
-        status = run_model(&contender[i], scene, cells, &seconds, &model);
-        for (size_t b = 0; b < bands && !status; b++) {
-            pps_score *s = &score[i * bands + b];
-            score_band(scene, members, model, reference, (int)b, s);
-            s->seconds_per_cell = seconds / cells_with_leaves(cells);
-        }
-        pps_irradiance_free(model);
+        status = score_one(&t, &contender[i], members, reference,
+                           &score[i * (size_t)scene->n_bands]);
     }
+    free(att);
     free(members);
     return status;
 }
 
 #define ROW(label, id, ...)                                                            \
-    {                                                                                  \
-        label, &pps_light_##id, { __VA_ARGS__ }                                        \
-    }
+    { label, &pps_light_##id, {__VA_ARGS__}, 0 }
 #define MODEL(name) extern const pps_light_model pps_light_##name;
 #include "tree/models.def"
 #undef MODEL
@@ -244,11 +337,27 @@ static const pps_contender contenders[] = {
     ROW("march-g", march_g, .compensate = PPS_COMPENSATE_DERIVED),
     ROW("self-consistent", self_consistent, .compensate = PPS_COMPENSATE_NONE),
     ROW("lattice", lattice, .compensate = PPS_COMPENSATE_NONE),
+    ROW("leaf", leaf, .sun_mean = PPS_SUN_PRINTED),
+    ROW("leaf unbiased", leaf, .sun_mean = PPS_SUN_UNBIASED),
+    ROW("leaf-lattice", leaf_lattice, .sun_mean = PPS_SUN_PRINTED),
+    ROW("leaf-lattice unbiased", leaf_lattice, .sun_mean = PPS_SUN_UNBIASED),
+};
+
+/* The paper traced 184K rays. */
+static const pps_contender paths[] = {
+    {.label = "mc 18K rays", .rays = 18400},
+    {.label = "mc 184K rays", .rays = 184000},
+    {.label = "mc 1.8M rays", .rays = 1840000},
 };
 
 const pps_contender *pps_contender_table(size_t *n) {
     *n = sizeof contenders / sizeof *contenders;
     return contenders;
+}
+
+const pps_contender *pps_contender_paths(size_t *n) {
+    *n = sizeof paths / sizeof *paths;
+    return paths;
 }
 
 /* ---- crowns ---- */
@@ -314,7 +423,8 @@ pps_status pps_experiment_run(const pps_experiment *e, size_t n,
         status = pps_trace_light(scene, &trace, &truth, NULL);
     }
     if (!status) {
-        status = pps_score_models(scene, cells, truth, e->bin, n, contender, score);
+        status = pps_score_models(scene, cells, truth, e->bin, n, contender, ~e->seed,
+                                  score);
     }
     pps_irradiance_free(truth);
     pps_cells_free(cells);

@@ -445,7 +445,9 @@ static void the_scenes_that_come_along_are_read(void **state) {
         {"scenes/CHERRY64.json", 64, 62500},
         {"scenes/spp-figure5.json", 1, 219000},
         {"scenes/spp-figure7.json", 1, 219000},
-        {"scenes/leaf-figure7.json", 1, 3000},
+        {"scenes/leaf-figure7-1500.json", 1, 3000},
+        {"scenes/leaf-figure7-4000.json", 1, 8000},
+        {"scenes/leaf-figure7-9000.json", 1, 18000},
         {"scenes/MAPLE16.json", 16, 219000},
         {"scenes/MAPLE64.json", 64, 219000},
     };

@@ -17,15 +17,20 @@
 extern "C" {
 #endif
 
-/* A light model with options, under a name: "SPPG" is spp-printed with its G-factor. */
+/* A light model with options, under a name: "SPPG" is spp-printed with its G-factor. Or
+ * Monte Carlo by `rays` light rays, with model NULL. */
 typedef struct pps_contender {
     const char *label;
     const pps_light_model *model;
     pps_light_options options;
+    uint64_t rays;
 } pps_contender;
 
 /* Every contender of Table 3 and beyond it, in the order shown; *n of them. */
 PPS_API const pps_contender *pps_contender_table(size_t *n);
+
+/* Monte Carlo as a contender: 18K rays, the paper's 184K, and 1.8M. */
+PPS_API const pps_contender *pps_contender_paths(size_t *n);
 
 /* Errors are fractions of the reference. Level 0 has the categories of at least 20
  * triangles (the paper's meshes), level 1 those of at least 100. */
@@ -36,17 +41,23 @@ typedef struct pps_score {
     double faces[PPS_SCORE_LEVELS];    /* by count, the face turned to the light and the
                                           one turned away each for itself */
     int categories[PPS_SCORE_LEVELS];
-    double brightness;       /* mean irradiance over the reference's */
-    double seconds_per_cell; /* of one core, for each with leaves, from no answer,
-                                without what is made once a scene */
+    double leaves;     /* every leaf for itself, by area: root mean square, both faces
+                          together, less what the reference's own noise adds to it */
+    double brightness; /* mean irradiance over the reference's */
+    /* Of one core, from no answer, without what is made once a scene: for each cell with
+     * leaves, of the cells (or of the leaves, by a model without cells); and for each
+     * leaf, all that lights it. */
+    double seconds_per_cell, seconds_per_leaf;
 } pps_score;
 
 /* Score every contender in every band against `reference`, a Monte Carlo answer to the
- * scene: score[i * n_bands + b]. bin 0: 0.5. */
+ * scene, with its standard errors: score[i * n_bands + b]. bin 0: 0.5. `seed` is that of
+ * Monte Carlo contenders, and must not be the reference's. ARGUMENT: see
+ * pps_light_model_run; a reference of another scene or without standard errors. */
 PPS_API pps_status pps_score_models(const pps_scene *scene, const pps_cells *cells,
                                     const pps_irradiance *reference, double bin,
                                     size_t n, const pps_contender *contender,
-                                    pps_score *score);
+                                    uint64_t seed, pps_score *score);
 
 /* A crown under a sun or a sky. */
 typedef struct pps_experiment {
