@@ -12,7 +12,7 @@
 enum { LINES_MOST = 40, COLUMNS_MOST = 120, MARGIN = 4 };
 
 bool panel_create(panel *out, pps_problem *problem) {
-    *out = (panel){.program = gl_program("backdrop_vert", "panel_frag", problem)};
+    *out = (panel){.program = gl_program("screen_vert", "panel_frag", problem)};
     glGenVertexArrays(1, &out->vertices);
     glGenTextures(1, &out->texture);
     glBindTexture(GL_TEXTURE_2D, out->texture);

@@ -179,20 +179,33 @@ static pps_status load_meshes(stage *s) {
     return status;
 }
 
-static bool open_all(stage *s, pps_problem *problem) {
+static bool compile_all(stage *s, pps_problem *problem) {
+    bool counts = stage_counts(s);
     s->depth_program = gl_program("plant_vert", "depth_frag", problem);
     s->plant_program =
-        gl_program("plant_vert", "sun+spp+leaf_light+plant_frag", problem);
-    s->backdrop_program =
-        s->plant_program ? gl_program("backdrop_vert", "sun+backdrop_frag", problem)
-                         : 0;
-    if (!s->depth_program || !s->backdrop_program) {
-        return false;
-    }
+        s->depth_program
+            ? gl_program("plant_vert",
+                         counts ? "by_count+sun+spp+leaf_light+plant_frag"
+                                : "by_opacity+sun+spp+leaf_light+plant_frag",
+                         problem)
+            : 0;
+    s->ground_program = s->plant_program
+                            ? gl_program("ground_vert",
+                                         counts ? "by_count+sun+ground_frag"
+                                                : "by_opacity+sun+ground_frag",
+                                         problem)
+                            : 0;
+    s->sky_program =
+        s->ground_program ? gl_program("screen_vert", "sky_frag", problem) : 0;
+    return s->sky_program != 0;
+}
+
+static bool open_all(stage *s, pps_problem *problem) {
     glGenVertexArrays(1, &s->empty);
     s->white = plain_texture();
     if (fail(load_meshes(s), "the plants' meshes", problem) || !prepare(s, problem) ||
-        fail(stage_fill_static(s), "the cells' tables", problem)) {
+        fail(stage_fill_static(s), "the cells' tables", problem) ||
+        !compile_all(s, problem)) {
         return false;
     }
     size_t n_poses = s->scene->n_instances; /* at most */
@@ -239,7 +252,8 @@ void stage_close(stage *s) {
     glDeleteVertexArrays(1, &s->empty);
     glDeleteProgram(s->depth_program);
     glDeleteProgram(s->plant_program);
-    glDeleteProgram(s->backdrop_program);
+    glDeleteProgram(s->ground_program);
+    glDeleteProgram(s->sky_program);
     pps_system_free(s->system);
     pps_irradiance_free(s->leaves);
     pps_scene_free(s->scene);

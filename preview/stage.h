@@ -65,7 +65,7 @@ typedef struct stage {
     gl_table cell_of, scattered, sky_shares, leaf_light;
     GLuint openness, empty, white;
     float open_frame[4], around[3];
-    GLuint depth_program, plant_program, backdrop_program;
+    GLuint depth_program, plant_program, ground_program, sky_program;
 } stage;
 
 /* Take a scene, which the stage then owns, and do steps 1 to 5. NULL: the problem. */

@@ -135,7 +135,7 @@ static void set_sky(const stage *s, GLuint program) {
 
 static void set_common(const stage *s, GLuint program, const pps_camera *camera,
                        const view *v) {
-    stage_use_sun(&s->sun, program, stage_counts(s));
+    stage_use_sun(&s->sun, program);
     glUniformMatrix4fv(glGetUniformLocation(program, "to_clip"), 1, GL_FALSE,
                        v->to_clip);
     gl_set_vec3(program, "eye", camera->eye);
@@ -246,33 +246,60 @@ static void draw_plants(const stage *s, const pps_camera *camera, const view *v,
     glDepthFunc(GL_LESS);
 }
 
-static void draw_backdrop(const stage *s, const pps_camera *camera, const view *v) {
-    GLuint program = s->backdrop_program;
-    const pps_scene *scene = s->scene;
+static void set_axes(const view *v, GLuint program) {
     double right[3], up[3];
     for (int i = 0; i < 3; i++) {
         right[i] = v->right[i] * v->tangent * v->aspect;
         up[i] = v->up[i] * v->tangent;
     }
-    set_common(s, program, camera, v);
     gl_set_vec3(program, "right", right);
     gl_set_vec3(program, "up", up);
     gl_set_vec3(program, "back", v->back);
+}
+
+static void set_sky_colors(const pps_scene *scene, GLuint program) {
     set_bands(scene, program, "zenith", scene->sky.zenith, true);
     set_bands(scene, program, "horizon", scene->sky.horizon, true);
     set_bands(scene, program, "below", scene->sky.below, true);
+}
+
+static void draw_sky(const stage *s, const view *v) {
+    glUseProgram(s->sky_program);
+    set_axes(v, s->sky_program);
+    set_sky_colors(s->scene, s->sky_program);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void draw_ground(const stage *s, const pps_camera *camera, const view *v,
+                        int width, int height) {
+    GLuint program = s->ground_program;
+    const pps_scene *scene = s->scene;
+    set_common(s, program, camera, v);
+    set_axes(v, program);
+    set_sky_colors(scene, program);
     set_bands(scene, program, "ground_reflectance", scene->ground.reflectance, true);
+    glUniform2f(glGetUniformLocation(program, "extent"), (float)width, (float)height);
     gl_set_float(program, "sky_on", s->options.sources & PPS_SKY ? 1 : 0);
-    gl_set_int(program, "ground_present", scene->ground.present);
     gl_set_float(program, "ground_height", scene->ground.height);
     gl_set_int(program, "ground_list", (int)scene->n_instances);
     glActiveTexture(GL_TEXTURE0 + UNIT_OPEN);
     glBindTexture(GL_TEXTURE_2D, s->openness);
     gl_set_int(program, "openness", UNIT_OPEN);
     glUniform4fv(glGetUniformLocation(program, "open_frame"), 1, s->open_frame);
-    glDepthFunc(GL_LEQUAL); /* the sky lies on the far plane */
+    glEnable(GL_DEPTH_CLAMP); /* it goes on beyond the far plane */
+    glDrawArrays(GL_TRIANGLES, 0, 12);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+/* The sky fills what plants left, on the far plane; the ground lies before it. */
+static void draw_backdrop(const stage *s, const pps_camera *camera, const view *v,
+                          int width, int height) {
+    glDepthFunc(GL_LEQUAL); /* what is beyond the far plane lies on it */
     glBindVertexArray(s->empty);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    draw_sky(s, v);
+    if (s->scene->ground.present) {
+        draw_ground(s, camera, v, width, height);
+    }
     glBindVertexArray(0);
     glDepthFunc(GL_LESS);
 }
@@ -297,7 +324,7 @@ void stage_draw(stage *s, const pps_camera *camera, int width, int height,
         draw_depths(s, &v);
         draw_plants(s, camera, &v, look);
     }
-    draw_backdrop(s, camera, &v);
+    draw_backdrop(s, camera, &v, width, height);
     free(order);
     free(row);
 }

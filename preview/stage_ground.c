@@ -52,7 +52,7 @@ static void add_direction(const stage *s, GLuint frame, GLuint program,
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE);
-    stage_use_sun(light, program, false);
+    stage_use_sun(light, program);
     gl_set_float(program, "weight", weight);
     gl_set_float(program, "ground_height", s->scene->ground.height);
     gl_set_int(program, "ground_list", (int)s->scene->n_instances);
@@ -84,7 +84,8 @@ bool stage_open_ground(stage *s, pps_problem *problem) {
     static const float none[] = {0, 0, 0, 0};
     double low[2], extent[2];
     stage_sun light = {0};
-    GLuint frame, program = gl_program("backdrop_vert", "sun+open_frag", problem);
+    GLuint frame,
+        program = gl_program("screen_vert", "by_opacity+sun+open_frag", problem);
     if (!program ||
         !gpu_maps_create(MAP_TEXELS, s->sun.maps.n, false, &light.maps, problem)) {
         glDeleteProgram(program);

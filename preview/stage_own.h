@@ -37,7 +37,7 @@ pps_status stage_fill_sun(const stage *s, const double to[3], bool ground_only,
 void stage_sun_free(stage_sun *sun);
 
 /* Tell a program of maps and tables. */
-void stage_use_sun(const stage_sun *sun, GLuint program, bool by_count);
+void stage_use_sun(const stage_sun *sun, GLuint program);
 
 /* How open to the sky the ground is. */
 bool stage_open_ground(stage *s, pps_problem *problem);

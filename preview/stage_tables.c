@@ -288,7 +288,7 @@ static void use_array(GLuint texture, GLuint program, const char *name, int unit
     gl_set_int(program, name, unit);
 }
 
-void stage_use_sun(const stage_sun *sun, GLuint program, bool by_count) {
+void stage_use_sun(const stage_sun *sun, GLuint program) {
     glUseProgram(program);
     use_array(sun->maps.span, program, "spans", UNIT_SPANS);
     use_array(sun->maps.count[0], program, "near_counts", UNIT_NEAR);
@@ -296,6 +296,5 @@ void stage_use_sun(const stage_sun *sun, GLuint program, bool by_count) {
     gl_table_use(&sun->casters, program, "casters", UNIT_CASTERS);
     gl_table_use(&sun->poses, program, "poses", UNIT_POSES);
     gl_table_use(&sun->shade, program, "shade", UNIT_SHADE);
-    gl_set_int(program, "by_count", by_count);
     gl_set_int(program, "map_texels", sun->maps.texels);
 }

@@ -479,7 +479,7 @@ static bool prepare(view_window *w, pps_problem *problem) {
     int width, height;
     glfwGetFramebufferSize(w->window, &width, &height);
     glGenVertexArrays(1, &w->empty);
-    w->tone = gl_program("backdrop_vert", "tone_frag", problem);
+    w->tone = gl_program("screen_vert", "tone_frag", problem);
     return w->tone && panel_create(&w->panel, problem) &&
            frame_create(width, height, w->options.samples, &w->fine, problem) &&
            frame_create((width + 1) / 2, (height + 1) / 2, 1, &w->coarse, problem);

@@ -1,12 +1,12 @@
 // Light of the sun at a point of the scene, by the opacity maps of the plants about.
-// Shared by plants and ground; the same sums as tree/system.c.
+// Shared by plants and ground; the same sums as tree/system.c. `by_count` is a constant that
+// by_count.glsl or by_opacity.glsl has.
 
 uniform sampler2DArray spans;         // (-first, last) of each pose
 uniform sampler2DArray near_counts, far_counts; // of layers 0-3, 4-7
 uniform samplerBuffer casters;        // translation, 1/scale; cosine, sine, pose, own
 uniform samplerBuffer poses;          // across, up (in texels), axis and texel's size
 uniform usamplerBuffer shade;         // first of each instance, then the lists
-uniform bool by_count;                // light is e^-count; else surfaces are opaque
 uniform int map_texels;
 
 // Layer k of eight; 0 before the first.
@@ -41,8 +41,8 @@ vec2 look(int caster, vec3 point, vec3 normal) {
     int pose = int(turn.z);
     vec2 texels = vec2(dot(texelFetch(poses, 3 * pose), at),
                        dot(texelFetch(poses, 3 * pose + 1), at));
-    if (any(lessThan(texels, vec2(-1))) || any(greaterThan(texels, vec2(map_texels))))
-        return vec2(0);
+    bool beside =
+        any(lessThan(texels, vec2(-1))) || any(greaterThan(texels, vec2(map_texels)));
     vec4 axis = texelFetch(poses, 3 * pose + 2);
     float middle = dot(axis.xyz, at.xyz), slack = 0;
     vec2 sum = vec2(0);
@@ -60,7 +60,7 @@ vec2 look(int caster, vec3 point, vec3 normal) {
         slope *= size;
     }
     vec2 low = floor(texels), part = texels - low;
-    for (int k = 0; k < 4; k++) {
+    for (int k = beside ? 4 : 0; k < 4; k++) { // software skips loops, but no branches
         ivec2 corner = ivec2(k & 1, k >> 1), t = ivec2(low) + corner;
         vec2 share = mix(1 - part, part, vec2(corner));
         float along = middle + dot(slope, vec2(corner) - part);

@@ -1,0 +1,2 @@
+// Light ends at the first surface that it meets.
+const bool by_count = false;
