@@ -140,7 +140,7 @@ static const column tree_irradiance_columns[] = {
     {"band", "string", NULL, "name of the colour band"},
     {"depth", "double", "1", "optical depth below the sun, along its light"},
     {"thickness", "double", "1", "depth and what lies behind along the light"},
-    {"visibility", "double", "1", "share of the sun seen"},
+    {"visibility", "double", "1", "share of the sun seen from the leaf's cell"},
     {"g_factor", "double", "1", "G of the compensation; 1 without one"},
     {"model", "string", NULL, "name of the light model"},
     {"component", "string", NULL, "which light: sun, indirect, sky, sky-indirect or all"},
