@@ -61,11 +61,21 @@ static pps_status adding_solve(void *state, double thickness, double mu0) {
 
 /* ---- directions ---- */
 
+/* What sets the nodes. */
+typedef struct {
+    double g, error, smallest;
+    double most;    /* what the widest panel weighs */
+    double forward; /* how far beyond mu = 1 the light is smooth in mu */
+} node_demand;
+
 /* Points a Gauss panel [low, high] needs for a relative error. An integrand is analytic
  * in an ellipse through mu = 0 (e^(-tau/mu)) and the nearest singularity of the phase
- * function, log(1/g) away in theta. */
-static int panel_points(double g, double low, double high, double error) {
-    double half = (high - low) / 2, ellipse = 3;
+ * function, log(1/g) away in theta, or of the light beyond mu = 1. */
+static int panel_points(const node_demand *demand, double low, double high,
+                        double error) {
+    double g = demand->g, half = (high - low) / 2, ellipse = 3;
+    double forward = 1 + (1 + demand->forward - high) / half;
+    ellipse = fmin(ellipse, forward + sqrt(forward * forward - 1));
     if (g != 0) {
         double away = -log(fabs(g)),
                side = away * sqrt(1 - 0.25 * (low + high) * (low + high) / 1.0001);
@@ -76,11 +86,6 @@ static int panel_points(double g, double low, double high, double error) {
     }
     return (int)ceil(log(10 / error) / (2 * log(ellipse)));
 }
-
-typedef struct {
-    double g, error, smallest;
-    double most; /* what the widest panel weighs */
-} node_demand;
 
 /* Nodes of the scattering cost their number cubed. */
 enum { MOST_NODES = 2048, MOST_SCATTERING = 320, LEAST_POINTS = 3 };
@@ -93,7 +98,7 @@ static int graded_nodes(const node_demand *demand, double *mu, double *weight) {
         double low = high / 4 > demand->smallest ? high / 4 : 0;
         /* a panel weighs in as its width, or less where little is scattered again */
         double error = fmin(demand->error / fmin(high, demand->most), 0.1);
-        int points = panel_points(demand->g, low, high, error);
+        int points = panel_points(demand, low, high, error);
         points = points > LEAST_POINTS ? points : LEAST_POINTS;
         if (n + points > MOST_NODES) {
             return 0;
@@ -114,6 +119,7 @@ static int graded_nodes(const node_demand *demand, double *mu, double *weight) {
 /* What a run works with: the wanted directions and its demand on accuracy. */
 typedef struct {
     const adding *adding;
+    bool fluxes; /* radiances otherwise */
     double accuracy;
     size_t n_tau;
     const double *tau;
@@ -172,6 +178,17 @@ static double least_cosine(const run *r) {
     return fmax(0.1 * fmax(least, 1e-5 * unit), 1e-13);
 }
 
+/* Deep in an absorbing slab the light goes as e^(-k tau)/(1 - k mu), k below 1, which is
+ * sharp about mu = 1, though no sharper than e^(-tau/mu) makes it. Fluxes follow that down
+ * to the last number, so that k must be right to the tolerance over the depth; radiances
+ * are judged beside brighter ones. Diffusion overrates k. */
+static double forward_peak(const run *r) {
+    const pps_slab *slab = &r->adding->slab;
+    double k = sqrt(3 * (1 - slab->albedo) * (1 - slab->albedo * slab->g));
+    double depth = fmin(deepest(r), 750); /* no number is left below */
+    return r->fluxes ? fmax(1 / k - 1, 1 / depth) : 1;
+}
+
 /* Order m matters as g^(2m) and may be that much less accurate; not quite, as there are
  * many of them. */
 static pps_status directions_for(run *r, int m, pps_directions *d) {
@@ -180,7 +197,8 @@ static pps_status directions_for(run *r, int m, pps_directions *d) {
     node_demand demand = {.g = slab->g,
                           .error = r->accuracy / share,
                           .smallest = least_cosine(r),
-                          .most = share_of_nodes(r, m)};
+                          .most = share_of_nodes(r, m),
+                          .forward = slab->albedo > 0 ? forward_peak(r) : 1};
     int n = graded_nodes(&demand, r->mu, r->weight);
     if (n == 0 || n > MOST_SCATTERING) {
         return PPS_ERR_UNSUPPORTED;
@@ -438,8 +456,8 @@ static pps_flux sum_flux(const run *r, size_t k, const double *weight) {
 
 static pps_status flux_run(const adding *a, size_t n, const double *tau,
                            double accuracy, pps_flux *flux, pps_info *info) {
-    run r = {.adding = a, .accuracy = accuracy, .n_tau = n, .tau = tau};
-    node_demand demand = {a->slab.g, 0.01 * accuracy, grazing(&r), 1};
+    run r = {.adding = a, .fluxes = true, .accuracy = accuracy, .n_tau = n, .tau = tau};
+    node_demand demand = {a->slab.g, 0.01 * accuracy, grazing(&r), 1, forward_peak(&r)};
     double *out = malloc(2 * MOST_NODES * sizeof *out);
     if (!out) {
         return PPS_ERR_MEMORY;
@@ -496,7 +514,7 @@ static pps_status produce(adding *a, const request *what, double *value) {
             status ? (double)NAN
                    : pps_tolerance_missed(what->at, what->n, before, value);
         memcpy(before, value, what->n * sizeof *before);
-    } while (!status && a->info.error_estimate > a->tolerance && accuracy > 1e-13);
+    } while (!status && a->info.error_estimate > a->tolerance && accuracy > 1e-14);
     free(before);
     if (!status && !(a->info.error_estimate <= a->tolerance)) {
         return PPS_ERR_TOLERANCE;
