@@ -15,7 +15,7 @@ void system_pause(double seconds);
 int system_cores(void);
 
 /* From now on SIGINT, SIGTERM and SIGHUP are noted rather than deadly, but for those that
- * are ignored already (nohup). A second one kills as ever. */
+ * are ignored already (nohup). A second one kills as ever, 0.3 s later or more. */
 void system_watch_signals(void);
 
 /* The signal that came, or 0. */
