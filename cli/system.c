@@ -58,12 +58,28 @@ void system_processor(char *name, size_t size) {
         fclose(file);
 }
 
-static void note(int signal_number) { caught = signal_number; }
+/* A second signal ends the program where it stands, but not one that comes with the
+ * first: `timeout` and batch systems send to the process and to its group. */
+static void note(int signal_number) {
+    static const double together = 0.3; /* seconds */
+    static double first;
+    double now = system_seconds();
+
+    if (!caught) {
+        caught = signal_number;
+        first = now;
+    } else if (now - first > together) {
+        signal(signal_number, SIG_DFL);
+        raise(signal_number); /* once the handler has returned */
+    }
+}
 
 void system_watch_signals(void) {
-    struct sigaction before, ours = {.sa_handler = note, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction before, ours = {.sa_handler = note};
 
     sigemptyset(&ours.sa_mask);
+    for (int i = 0; i < N_WATCHED; i++)
+        sigaddset(&ours.sa_mask, watched[i]);
     for (int i = 0; i < N_WATCHED; i++) {
         if (sigaction(watched[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(watched[i], &ours, NULL);

@@ -19,7 +19,7 @@ int system_cores(void);
 void system_processor(char *name, size_t size);
 
 /* From now on SIGINT, SIGTERM and SIGHUP are noted rather than deadly, but for those that
- * are ignored already (nohup). A second one kills as ever. */
+ * are ignored already (nohup). A second one kills as ever, 0.3 s later or more. */
 void system_watch_signals(void);
 
 /* The signal that came, or 0. */

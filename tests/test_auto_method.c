@@ -5,6 +5,7 @@
  * slabs; the slow test 2,000.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
