@@ -76,7 +76,7 @@ static const column table_columns[] = {
     {"ratio", "double", "1", "3, crowns, figure7: mean of ours / mean of Monte Carlo"},
     {"spread", "double", "1", "3, crowns, figure7: half the range of `ours` over the seeds"},
     {"seconds_per_cell", "double", "s",
-     "crowns: time of one core for a cell with leaves, without what is made once a scene; "
+     "crowns: processor time for a cell with leaves, without what is made once a scene; "
      "differs from run to run"},
     {"rms_leaf", "double", "%",
      "3, crowns: the error with every leaf for itself, less the reference's own noise"},

@@ -56,17 +56,18 @@ w = (1.0 - left - right) / n_rows
 h = (1.0 - top - bottom - middle) / 2
 set label 1 at screen 0.5,0.978 center font ",17" \
     "Leaf irradiance: error of every light model beside its cost"
-set label 2 at screen 0.5,0.953 center font ",12" \
-    "Against Monte Carlo, sun alone, albedo 0.95. Above: rms over categories of depth and thickness (SPP Eq. 30), bars are half the range over three seeds. Below: rms over leaves, less the reference's noise."
+set label 2 at screen 0.5,0.953 center font ",11.5" \
+    "Against Monte Carlo, sun alone, albedo 0.95. Above: rms over categories (SPP Eq. 30), bars: half the range of three seeds. Below: rms over leaves, without the reference's noise."
 set xtics ("100 ns" 1e-7, "1 µs" 1e-6, "10 µs" 1e-5, "100 µs" 1e-4, "1 ms" 1e-3, "10 ms" 1e-2)
-percents = '("1 %%" 1, "2 %%" 2, "5 %%" 5, "10 %%" 10, "20 %%" 20, "50 %%" 50, "100 %%" 100)'
-no_words = '("" 1, "" 2, "" 5, "" 10, "" 20, "" 50, "" 100)'
+percents = '("0.5 %%" 0.5, "1 %%" 1, "2 %%" 2, "5 %%" 5, "10 %%" 10, "20 %%" 20, "50 %%" 50, "100 %%" 100)'
+no_words = '("" 0.5, "" 1, "" 2, "" 5, "" 10, "" 20, "" 50, "" 100)'
 
 do for [i = 1:2] {
     set autoscale
     stats csv using (column(time_of(i))) name "time" nooutput
     set xrange [time_min/2:time_max*2]
-    set yrange [1:130]
+    least = i == 1 ? 0.4 : 2
+    set yrange [least:130]
     do for [k = 1:n_rows] {
         set lmargin at screen left+(k-1)*w+0.006
         set rmargin at screen left+k*w-0.006

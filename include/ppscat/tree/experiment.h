@@ -44,8 +44,8 @@ typedef struct pps_score {
     double leaves;     /* every leaf for itself, by area: root mean square, both faces
                           together, less what the reference's own noise adds to it */
     double brightness; /* mean irradiance over the reference's */
-    /* Of one core, from no answer, without what is made once a scene: for each cell with
-     * leaves, of the cells (or of the leaves, by a model without cells); and for each
+    /* Processor time, from no answer, without what is made once a scene: for each cell
+     * with leaves, of the cells (or of the leaves, by a model without cells); and for each
      * leaf, all that lights it. */
     double seconds_per_cell, seconds_per_leaf;
 } pps_score;
