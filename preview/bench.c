@@ -102,9 +102,10 @@ static bool go_round(const bench *b, pps_problem *problem) {
  * counted. */
 static void leave_out(const bench *b) {
     double detail = b->options->look.detail > 0 ? b->options->look.detail : 2;
-    stage_show show = b->options->look.show;
-    const stage_look look[] = {
-        {show, 0, true}, {show, 0, false}, {show, detail, false}};
+    stage_look look[] = {b->options->look, b->options->look, b->options->look};
+    look[0].all = true;
+    look[0].detail = look[1].detail = 0;
+    look[2].detail = detail;
     static const char *const name[] = {"every plant and leaf", "plants in view",
                                        "fewer leaves"};
     static const char *const place[] = {"outside", "within"};
@@ -132,7 +133,9 @@ static void stand_within(bench *b) {
     b->within.target[2] += 1;
 }
 
-static int measure(stage *s, const preview_options *options, pps_problem *problem) {
+static int measure(const stage_pair *pair, const preview_options *options,
+                   pps_problem *problem) {
+    stage *s = pair->of[0];
     bench b = {.stage = s, .options = options};
     if (!frame_create(options->width, options->height, options->samples, &b.frame,
                       problem)) {

@@ -35,7 +35,7 @@ int main(int argc, char **argv) {
         return EXIT_USAGE;
     }
     if (options.help) {
-        fputs(options_help(), stdout);
+        options_help(stdout);
         return EXIT_DONE;
     }
     if (options.version) {

@@ -1,25 +1,32 @@
-/* A scene, a context and a stage for as long as the work takes.
+/* A context and stages for as long as the work takes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/offscreen.h"
+
+#include <stdio.h>
 
 #include "preview/headless.h"
 #include "preview/stage_open.h"
 
 int offscreen_run(const preview_options *options, offscreen_work *work,
                   pps_problem *problem) {
-    pps_scene *scene = scene_for(options, problem);
+    stage_pair pair;
+    char warning[200];
+    int rc = EXIT_FAILED;
+    pps_scene *scene =
+        scene_for(options, problem); /* broken: the driver is not asked */
     if (!scene) {
         return EXIT_USAGE;
     }
+    pps_scene_free(scene);
     headless *context = headless_open(problem);
-    if (!context) {
-        pps_scene_free(scene);
-        return EXIT_FAILED;
+    if (context && pair_open(options, &pair, &rc, problem)) {
+        if (leaves_too_large(pair.of[0], warning, sizeof warning)) {
+            fprintf(stderr, "ppscat-preview: %s\n", warning);
+        }
+        rc = work(&pair, options, problem);
+        pair_close(&pair);
     }
-    stage *s = stage_open(scene, &options->stage, problem);
-    int rc = s ? work(s, options, problem) : EXIT_FAILED;
-    stage_close(s);
     headless_close(context);
     return rc;
 }

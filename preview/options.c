@@ -3,44 +3,64 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/options.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { SIZE_LEAST = 16, SIZE_MOST = 8192, THREADS_MOST = 4096 };
 
-const char *options_help(void) {
-    return "Usage: ppscat-preview [OPTIONS] [SCENE]\n"
-           "Show a scene (.json) or a mesh in the light that a model finds; without "
-           "one, "
-           "a grove\nof cherries. In the window, h lists the keys.\n"
-           "\n"
-           "  --snapshot FILE.png    one picture, without a display\n"
-           "  --bench                times of the steps, and a round of the sun\n"
-           "  --model NAME           lattice (default) and the other names of `ppscat "
-           "tree models`;\n"
-           "                         sppg: the paper's own system; mc: Monte Carlo\n"
-           "  --compensate FORM      G-factor of the models that take one: none, "
-           "derived, "
-           "printed\n"
-           "                         (default none; sppg: derived)\n"
-           "  --component LIST       of all (default), sun, indirect, sky, "
-           "sky-indirect\n"
-           "  --sun AZIMUTH,ELEVATION    degrees from +x towards +y, and above the "
-           "horizon\n"
-           "  --view AZIMUTH,ELEVATION   where the camera stands (default -60,10)\n"
-           "  --size WIDTHxHEIGHT    pixels (default 1280x720)\n"
-           "  --exposure X           times that of a white plane under the sky "
-           "(default "
-           "1)\n"
-           "  --show WHAT            light (default), or in false colour sun, "
-           "scattered\n"
-           "  --samples N            a pixel, 1 to 8 (default 4)\n"
-           "  --rays N               of mc (default 1000000)\n"
-           "  -j, --jobs N           threads (default all cores)\n"
-           "  -h, --help   --version\n";
+enum {
+#define OPTION(id, name, metavar, help) id,
+#include "preview/options.def"
+#undef OPTION
+    N_OPTIONS
+};
+
+const preview_option options_table[] = {
+#define OPTION(id, name, metavar, help) {name, metavar, help},
+#include "preview/options.def"
+#undef OPTION
+    {NULL, NULL, NULL}};
+
+/* ---- help ---- */
+
+enum { INDENT = 29, COLUMNS = 79 };
+
+/* Words of a text from column INDENT on, the cursor being at `column`. */
+static void print_wrapped(FILE *out, const char *text, int column) {
+    while (*text) {
+        int word = (int)strcspn(text, " ");
+        if (column + 1 + word > COLUMNS || column > INDENT + COLUMNS) {
+            fputc('\n', out);
+            column = 0;
+        }
+        int gap = column < INDENT ? INDENT - column : 1;
+        fprintf(out, "%*s%.*s", gap, "", word, text);
+        column += gap + word;
+        text += word + (text[word] == ' ');
+    }
+    fputc('\n', out);
+}
+
+void options_help(FILE *out) {
+    fputs(
+        "Usage: ppscat-preview [OPTIONS] [SCENE]\n"
+        "Show a scene (.json) or a mesh in the light that a model finds; without one, "
+        "a grove\nof cherries. In the window, h lists the keys.\n\n",
+        out);
+    for (const preview_option *o = options_table; o->name; o++) {
+        int column = fprintf(out, "  --%s%s%s", o->name, o->metavar ? " " : "",
+                             o->metavar ? o->metavar : "");
+        if (column >= INDENT) {
+            fputc('\n', out);
+            column = 0;
+        }
+        print_wrapped(out, o->help, column);
+    }
 }
 
 /* ---- single values ---- */
@@ -99,6 +119,22 @@ bool options_model(const char *name, stage_options *out) {
     return true;
 }
 
+void options_second(const preview_options *o, stage_options *second) {
+    stage_way way = second->way;
+    const pps_light_model *model = second->model;
+    *second = o->stage;
+    second->way = way;
+    second->model = model;
+    second->compensate =
+        way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : PPS_COMPENSATE_NONE;
+}
+
+const char *options_model_name(const stage_options *o) {
+    return o->way == STAGE_INSTANCES     ? "sppg"
+           : o->way == STAGE_MONTE_CARLO ? "mc"
+                                         : o->model->name;
+}
+
 void options_model_names(char *out, size_t size) {
     size_t used = 0;
     for (size_t i = 0; i < pps_light_model_count() && used < size; i++) {
@@ -139,44 +175,29 @@ static bool read_components(const char *text, unsigned *out) {
 
 /* ---- options ---- */
 
-enum {
-    SNAPSHOT = 256,
-    BENCH,
-    MODEL,
-    COMPENSATE,
-    COMPONENT,
-    SUN,
-    VIEW,
-    SIZE,
-    EXPOSURE,
-    SHOW,
-    SAMPLES,
-    RAYS,
-    VERSION
-};
-
-static const struct option table[] = {
-    {"snapshot", required_argument, NULL, SNAPSHOT},
-    {"bench", no_argument, NULL, BENCH},
-    {"model", required_argument, NULL, MODEL},
-    {"compensate", required_argument, NULL, COMPENSATE},
-    {"component", required_argument, NULL, COMPONENT},
-    {"sun", required_argument, NULL, SUN},
-    {"view", required_argument, NULL, VIEW},
-    {"size", required_argument, NULL, SIZE},
-    {"exposure", required_argument, NULL, EXPOSURE},
-    {"show", required_argument, NULL, SHOW},
-    {"samples", required_argument, NULL, SAMPLES},
-    {"rays", required_argument, NULL, RAYS},
-    {"jobs", required_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {"version", no_argument, NULL, VERSION},
-    {NULL, 0, NULL, 0}};
+/* As getopt_long has it, from the table; room for N_OPTIONS + 1. */
+static void list_options(struct option *out) {
+    for (int i = 0; i < N_OPTIONS; i++) {
+        out[i] = (struct option){
+            options_table[i].name,
+            options_table[i].metavar ? required_argument : no_argument, NULL, 256 + i};
+    }
+    out[N_OPTIONS] = (struct option){0};
+}
 
 static bool read_snapshot(const char *text, preview_options *o, pps_problem *problem) {
     size_t length = strlen(text);
     if (length < 5 || strcmp(text + length - 4, ".png") != 0) {
         return refuse(problem, "snapshot", text, "FILE.png");
+    }
+    char folder[4096];
+    const char *slash = strrchr(text, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - text) + 1 : 1,
+             slash ? text : ".");
+    if (access(folder, W_OK) != 0) { /* known before anything is drawn */
+        snprintf(problem->text, sizeof problem->text,
+                 "--snapshot: cannot write '%.200s': %s", text, strerror(errno));
+        return false;
     }
     o->snapshot = text;
     return true;
@@ -190,13 +211,39 @@ static bool read_size(const char *text, preview_options *o, pps_problem *problem
            refuse(problem, "size", text, "WIDTHxHEIGHT, 16 to 8192 pixels each");
 }
 
-static bool read_model(const char *text, preview_options *o, pps_problem *problem) {
+static bool read_model(const char *option, const char *text, stage_options *out,
+                       pps_problem *problem) {
     char names[300];
-    if (options_model(text, &o->stage)) {
+    if (options_model(text, out)) {
         return true;
     }
     options_model_names(names, sizeof names);
-    return refuse(problem, "model", text, names);
+    return refuse(problem, option, text, names);
+}
+
+/* One number for all bands, or one a band. */
+static bool read_albedo(const char *text, preview_options *o, pps_problem *problem) {
+    const char *at = text;
+    char *end;
+    int n = 0;
+    for (; n < PPS_BANDS_MAX; n++) {
+        o->albedo[n] = strtod(at, &end);
+        if (end == at || !(o->albedo[n] >= 0 && o->albedo[n] <= 1)) {
+            break;
+        }
+        if (!*end) {
+            for (int b = n + 1; b < PPS_BANDS_MAX; b++) {
+                o->albedo[b] = n == 0 ? o->albedo[0] : (double)NAN;
+            }
+            return true;
+        }
+        if (*end != ',') {
+            break;
+        }
+        at = end + 1;
+    }
+    return refuse(problem, "albedo", text,
+                  "numbers from 0 to 1, with commas between them, at most 4");
 }
 
 static bool read_sun(const char *text, preview_options *o, pps_problem *problem) {
@@ -215,6 +262,18 @@ static bool read_view(const char *text, preview_options *o, pps_problem *problem
                   "an azimuth from -360 to 360, a comma, an elevation from -90 to 90");
 }
 
+/* A number from low to high. */
+static bool read_real(const char *option, const char *text, double low, double high,
+                      double *out, pps_problem *problem) {
+    char *end, allowed[80];
+    *out = strtod(text, &end);
+    if (end != text && !*end && *out >= low && *out <= high) {
+        return true;
+    }
+    snprintf(allowed, sizeof allowed, "a number from %g to %g", low, high);
+    return refuse(problem, option, text, allowed);
+}
+
 static bool read_exposure(const char *text, preview_options *o, pps_problem *problem) {
     char *end;
     o->exposure = strtod(text, &end);
@@ -225,6 +284,7 @@ static bool read_exposure(const char *text, preview_options *o, pps_problem *pro
 static bool read_number(int id, const char *text, preview_options *o,
                         pps_problem *problem) {
     static const char *const forms[] = {"none", "derived", "printed"};
+    static const char *const scattered[] = {"pixel", "cell"};
     static const char *const shows[] = {"light", "sun", "scattered"};
     long long n = 0;
     int k;
@@ -237,6 +297,10 @@ static bool read_number(int id, const char *text, preview_options *o,
         k = read_word(text, shows, 3);
         o->look.show = (stage_show)k;
         return k >= 0 || refuse(problem, "show", text, "light, sun, scattered");
+    case SCATTERED:
+        k = read_word(text, scattered, 2);
+        o->stage.by_point = k == 0;
+        return k >= 0 || refuse(problem, "scattered", text, "pixel, cell");
     case COMPONENT:
         return read_components(text, &o->stage.sources) ||
                refuse(
@@ -269,22 +333,35 @@ static bool read_one(int id, const char *text, preview_options *o,
     case BENCH:
         o->bench = true;
         return true;
-    case 'h':
+    case HELP:
         o->help = true;
         return true;
     case VERSION:
         o->version = true;
         return true;
     case MODEL:
-        return read_model(text, o, problem);
+        return read_model("model", text, &o->stage, problem);
+    case SPLIT:
+        o->split = true;
+        return read_model("split", text, &o->second, problem);
+    case ALBEDO:
+        return read_albedo(text, o, problem);
     case SUN:
         return read_sun(text, o, problem);
+    case LATITUDE:
+        return read_real("latitude", text, -90, 90, &o->latitude, problem);
     case VIEW:
         return read_view(text, o, problem);
+    case ZOOM:
+        return read_real("zoom", text, 1, 1000, &o->zoom, problem);
     case SIZE:
         return read_size(text, o, problem);
     case EXPOSURE:
         return read_exposure(text, o, problem);
+    case DETAIL:
+        return read_real("detail", text, 0, 100, &o->look.detail, problem);
+    case RELIEF:
+        return read_real("relief", text, 0, 1, &o->look.relief, problem);
     default:
         return read_number(id, text, o, problem);
     }
@@ -305,6 +382,10 @@ static bool check(const preview_options *o, bool compensate_given, const char *m
         strcpy(problem->text, "--bench and --snapshot: one of them at a time");
         return false;
     }
+    if (o->bench && o->split) {
+        strcpy(problem->text, "--bench and --split: times are of one model");
+        return false;
+    }
     return true;
 }
 
@@ -312,16 +393,23 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
     const char *model = "lattice";
     bool compensate_given = false;
     int id;
-    *out = (preview_options){.width = 1280,
-                             .height = 720,
-                             .samples = 4,
-                             .view = {-60, 10},
-                             .exposure = 1,
-                             .stage = {.sources = PPS_ALL_LIGHT, .map_texels = 512}};
+    *out = (preview_options){
+        .width = 1280,
+        .height = 720,
+        .samples = 4,
+        .view = {-60, 10},
+        .exposure = 1,
+        .zoom = 1,
+        .latitude = 50,
+        .albedo = {NAN, NAN, NAN, NAN},
+        .look = {.relief = 0.5},
+        .stage = {.sources = PPS_ALL_LIGHT, .by_point = true, .map_texels = 512}};
+    struct option known[N_OPTIONS + 1];
+    list_options(known);
     options_model(model, &out->stage);
     opterr = 0;
     optind = 1;
-    while ((id = getopt_long(argc, argv, ":hj:", table, NULL)) != -1) {
+    while ((id = getopt_long(argc, argv, ":hj:", known, NULL)) != -1) {
         if (id == '?' || id == ':') {
             snprintf(problem->text, sizeof problem->text,
                      id == ':' ? "%.60s: it needs a value (see --help)"
@@ -329,6 +417,7 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
                      argv[optind - 1]);
             return false;
         }
+        id = id == 'h' ? HELP : id == 'j' ? JOBS : id - 256;
         if (!read_one(id, optarg, out, problem)) {
             return false;
         }
@@ -337,6 +426,11 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
     }
     if (out->stage.way == STAGE_INSTANCES && !compensate_given) {
         out->stage.compensate = PPS_COMPENSATE_DERIVED;
+    }
+    if (out->split) {
+        stage_options second = out->second;
+        options_second(out, &second);
+        out->second = second;
     }
     if (optind + 1 < argc) {
         snprintf(problem->text, sizeof problem->text,

@@ -4,6 +4,8 @@
 #ifndef PREVIEW_OPTIONS_H
 #define PREVIEW_OPTIONS_H
 
+#include <stdio.h>
+
 #include "preview/stage.h"
 
 /* Exit codes, as those of ppscat. */
@@ -14,24 +16,39 @@ typedef struct {
     const char *snapshot; /* NULL: a window */
     bool bench, help, version;
     int width, height, samples;
-    double view[2];  /* azimuth and elevation, degrees */
-    double sun[2];   /* the same; */
-    bool sun_given;  /* else the scene's */
-    double exposure; /* times that of a white plane */
+    double view[2]; /* azimuth and elevation, degrees */
+    double zoom;
+    double sun[2];  /* azimuth and elevation; */
+    bool sun_given; /* else the scene's */
+    double latitude;
+    double albedo[PPS_BANDS_MAX]; /* of leaves; NaN: the scene's */
+    double exposure;              /* times that of a white plane */
     stage_look look;
     stage_options stage;
+    bool split;           /* a second model, in the right half */
+    stage_options second; /* of which only the model is its own */
 } preview_options;
+
+/* A row of the table; metavar NULL: a flag. The last has no name. */
+typedef struct {
+    const char *name, *metavar, *help;
+} preview_option;
+extern const preview_option options_table[];
 
 /* False, with one line that names option, value and what is allowed. */
 bool options_read(int argc, char **argv, preview_options *out, pps_problem *problem);
 
-/* The text of --help. */
-const char *options_help(void);
+/* Print --help. */
+void options_help(FILE *out);
 
 /* "lattice", "leaf", ..., "sppg" or "mc"; false: none of these. */
 bool options_model(const char *name, stage_options *out);
+const char *options_model_name(const stage_options *o);
 
 /* The names that options_model knows, with commas between them. */
 void options_model_names(char *out, size_t size);
+
+/* Of a second stage, whose model is set: everything else as for the first. */
+void options_second(const preview_options *o, stage_options *second);
 
 #endif

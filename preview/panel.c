@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/panel.h"
 
+#include <math.h>
 #include <string.h>
 
 #include <ppscat/tree/picture.h>
@@ -55,13 +56,16 @@ static pps_picture *write_lines(const char *text, int scale) {
     return picture;
 }
 
-void panel_draw(const panel *p, int width, int height, int scale, bool low,
-                const char *text) {
+panel_place panel_draw(const panel *p, int width, int height, int scale, int x, int y,
+                       const char *text) {
     pps_picture *picture = write_lines(text, scale);
     if (!picture) {
-        return;
+        return (panel_place){0, 0, 0, 0};
     }
-    int x = 8 * scale, y = low ? x : height - picture->height - x;
+    x = x < 0 ? width + x - picture->width : x;
+    y = y < 0 ? height + y - picture->height : y;
+    panel_place place = {x, y, picture->width, picture->height};
+    y = height - picture->height - y; /* OpenGL counts from the bottom */
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, p->texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -80,4 +84,15 @@ void panel_draw(const panel *p, int width, int height, int scale, bool low,
     glDisable(GL_BLEND);
     glViewport(0, 0, width, height);
     pps_picture_free(picture);
+    return place;
+}
+
+bool panel_at(const panel_place *place, int scale, double x, double y, int *line,
+              int *column) {
+    double step = (PPS_FONT_HEIGHT + 2) * scale, margin = MARGIN * scale;
+    x -= place->x;
+    y -= place->y;
+    *line = (int)floor((y - margin) / step);
+    *column = (int)floor((x - margin) / (PPS_FONT_WIDTH * scale));
+    return x >= 0 && x < place->width && y >= 0 && y < place->height;
 }

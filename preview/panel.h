@@ -13,9 +13,19 @@ typedef struct {
 bool panel_create(panel *out, pps_problem *problem);
 void panel_free(panel *p);
 
-/* Draw lines, "\n" between them, into the upper left (or lower left) corner of the bound
- * frame buffer of that size; a dot of a letter is `scale` pixels. */
-void panel_draw(const panel *p, int width, int height, int scale, bool low,
-                const char *text);
+/* Where a panel lies, pixels from the upper left corner. */
+typedef struct {
+    int x, y, width, height;
+} panel_place;
+
+/* Draw lines, "\n" between them, into the bound frame buffer of that size, their corner at
+ * (x, y) from the left and top, or where negative from the right and bottom; a dot of a
+ * letter is `scale` pixels. */
+panel_place panel_draw(const panel *p, int width, int height, int scale, int x, int y,
+                       const char *text);
+
+/* Whether a place is on a panel, and at which line and letter. */
+bool panel_at(const panel_place *place, int scale, double x, double y, int *line,
+              int *column);
 
 #endif

@@ -3,13 +3,21 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/snapshot.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "preview/frame.h"
 #include "preview/offscreen.h"
 
-pps_picture *snapshot_draw(stage *s, const preview_options *options,
-                           pps_problem *problem) {
+/* The lens grows longer, the eye stays. */
+static void zoom_in(pps_camera *camera, double zoom) {
+    const double degree = 3.14159265358979323846 / 180;
+    camera->field_of_view =
+        2 * atan(tan(camera->field_of_view / 2 * degree) / zoom) / degree;
+}
+
+static pps_picture *draw(const stage_pair *pair, const preview_options *options,
+                         pps_problem *problem) {
     frame f;
     pps_camera camera;
     pps_picture *picture;
@@ -21,10 +29,12 @@ pps_picture *snapshot_draw(stage *s, const preview_options *options,
         pps_picture_free(picture);
         return NULL;
     }
-    pps_camera_fit(s->scene, options->view[0], options->view[1],
+    pps_camera_fit(pair->of[0]->scene, options->view[0], options->view[1],
                    (double)options->width / options->height, &camera);
+    zoom_in(&camera, options->zoom);
     frame_begin(&f);
-    stage_draw(s, &camera, options->width, options->height, &options->look);
+    pair_draw(pair, options->width / 2, &camera, options->width, options->height,
+              &options->look);
     frame_finish(&f);
     frame_read(&f, picture);
     frame_free(&f);
@@ -35,14 +45,21 @@ pps_picture *snapshot_draw(stage *s, const preview_options *options,
     return picture;
 }
 
-static int draw_and_write(stage *s, const preview_options *options,
+pps_picture *snapshot_draw(stage *s, const preview_options *options,
+                           pps_problem *problem) {
+    stage_pair alone = {{s, NULL}};
+    return draw(&alone, options, problem);
+}
+
+static int draw_and_write(const stage_pair *pair, const preview_options *options,
                           pps_problem *problem) {
-    pps_picture *picture = snapshot_draw(s, options, problem);
+    pps_picture *picture = draw(pair, options, problem);
     if (!picture) {
         return EXIT_FAILED;
     }
-    double exposure =
-        options->look.show == SHOW_LIGHT ? options->exposure * stage_exposure(s) : 1;
+    double exposure = options->look.show == SHOW_LIGHT
+                          ? options->exposure * stage_exposure(pair->of[0])
+                          : 1;
     pps_status status =
         pps_picture_write(picture, exposure, options->snapshot, problem);
     pps_picture_free(picture);

@@ -185,8 +185,8 @@ static bool compile_all(stage *s, pps_problem *problem) {
     s->plant_program =
         s->depth_program
             ? gl_program("plant_vert",
-                         counts ? "by_count+sun+spp+leaf_light+plant_frag"
-                                : "by_opacity+sun+spp+leaf_light+plant_frag",
+                         counts ? "by_count+sun+spp+leaf_light+relief+plant_frag"
+                                : "by_opacity+sun+spp+leaf_light+relief+plant_frag",
                          problem)
             : 0;
     s->ground_program = s->plant_program

@@ -35,6 +35,7 @@ typedef struct {
     stage_show show;
     double detail; /* pixels: where leaves are smaller, fewer and larger ones stand for
                       them, until they are that large; 0: every leaf */
+    double relief; /* of leaves, 0 to 1 */
     bool
         all; /* also plants that are out of view (to see what leaving them out saves) */
 } stage_look;

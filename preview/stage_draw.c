@@ -236,11 +236,13 @@ static void draw_plants(const stage *s, const pps_camera *camera, const view *v,
     gl_set_int(program, "image", UNIT_IMAGE);
     gl_set_vec3(program, "around", around);
     gl_set_int(program, "false_color", (int)look->show);
+    gl_set_float(program, "relief", look->show == SHOW_LIGHT ? look->relief : 0);
     gl_set_float(program, "false_top", 1.5 * PI / stage_exposure(s));
     glDepthFunc(GL_EQUAL);
     for (size_t p = 0; p < s->scene->n_prototypes; p++) {
         set_optics(s, program, p);
         set_slab(s, program, p);
+        gl_set_float(program, "leaf_size", s->mesh[p].leaf_size);
         draw_prototype(s, program, p);
     }
     glDepthFunc(GL_LESS);

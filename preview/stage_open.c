@@ -51,6 +51,44 @@ static pps_scene *grove(pps_problem *problem) {
     return scene;
 }
 
+/* A face keeps what it reflects to what it lets through, and never gives more than it gets. */
+static void set_face(pps_leaf_optics *o, int face, int band, double factor) {
+    double *r = &o->reflectance[face][band], *t = &o->transmittance[face][band];
+    factor = fmin(factor, 1 / fmax(*r + *t, 1e-9));
+    *r *= factor;
+    *t *= factor;
+}
+
+void set_albedo(pps_scene *scene, int band, double albedo) {
+    for (size_t p = 0; p < scene->n_prototypes; p++) {
+        pps_leaf_optics *o = &scene->prototype[p].optics;
+        double now = pps_leaf_albedo(o, band);
+        for (int face = 0; face < 2; face++) {
+            if (now > 0) {
+                set_face(o, face, band, albedo / now);
+            } else {
+                o->reflectance[face][band] = o->transmittance[face][band] = albedo / 2;
+            }
+        }
+    }
+}
+
+bool leaves_too_large(const stage *s, char *out, size_t size) {
+    double most = 0;
+    for (size_t i = 0; i < s->scene->n_instances; i++) {
+        const pps_instance *at = &s->scene->instance[i];
+        most = fmax(most, s->mesh[at->prototype].leaf_size * at->scale);
+    }
+    if (!s->system || most <= s->system->cell) {
+        return false;
+    }
+    snprintf(out, size,
+             "leaves of %.2g m are larger than the cells of %.2g m that light is "
+             "known in",
+             most, s->system->cell);
+    return true;
+}
+
 pps_scene *scene_for(const preview_options *options, pps_problem *problem) {
     pps_scene *scene = NULL;
     problem->text[0] = '\0';
@@ -61,6 +99,11 @@ pps_scene *scene_for(const preview_options *options, pps_problem *problem) {
     }
     if (!scene && !problem->text[0]) {
         strcpy(problem->text, "out of memory");
+    }
+    for (int b = 0; scene && b < scene->n_bands; b++) {
+        if (!isnan(options->albedo[b])) {
+            set_albedo(scene, b, options->albedo[b]);
+        }
     }
     if (scene && options->sun_given) {
         turn_sun(scene, options->sun[0], options->sun[1]);

@@ -12,4 +12,10 @@ pps_scene *scene_for(const preview_options *options, pps_problem *problem);
 /* Turn a scene's sun: degrees from +x towards +y, and above the horizon. */
 void turn_sun(pps_scene *scene, double azimuth, double elevation);
 
+/* Let leaves scatter this share of a band's light, 0 to 1, in all their ways. */
+void set_albedo(pps_scene *scene, int band, double albedo);
+
+/* Whether leaves are larger than cells, and what to tell the user. */
+bool leaves_too_large(const stage *s, char *out, size_t size);
+
 #endif

@@ -25,13 +25,13 @@ void sky_light(int cell, vec3 n, inout vec3 front, inout vec3 back) {
 }
 
 // The sun straight, and what of it is scattered, by the depths at the point itself.
-void sun_light(int instance, int cell, vec3 point, vec3 n, inout vec3 even, inout vec3 odd,
-               out vec3 front, out vec3 back) {
+void sun_light(int instance, int cell, vec3 point, vec3 n, vec3 lit, inout vec3 even,
+               inout vec3 odd, out vec3 front, out vec3 back) {
     front = back = vec3(0);
     if (sun + sun_scattered == vec3(0))
         return;
     vec2 met = sun_met(instance, point, n);
-    float cosine = dot(n, to_sun), share = cosine * sun_share(met);
+    float cosine = dot(lit, to_sun), share = cosine * sun_share(met);
     front = max(share, 0) * sun;
     back = max(-share, 0) * sun;
     if (sun_scattered != vec3(0)) {
@@ -42,7 +42,8 @@ void sun_light(int instance, int cell, vec3 point, vec3 n, inout vec3 even, inou
     }
 }
 
-void leaf_irradiance(int leaf, int instance, vec3 point, vec3 n, out vec3 front,
+// n: of the leaf, which is not in its own shade; lit: the normal that light falls on.
+void leaf_irradiance(int leaf, int instance, vec3 point, vec3 n, vec3 lit, out vec3 front,
                      out vec3 back) {
     if (per_leaf) {
         front = texelFetch(leaf_light, 2 * leaf).rgb;
@@ -54,10 +55,10 @@ void leaf_irradiance(int leaf, int instance, vec3 point, vec3 n, out vec3 front,
     for (int b = 0; b < 3; b++) {
         vec4 light = texelFetch(scattered, 4 * cell + b);
         even[b] = light.w / 4;
-        odd[b] = dot(n, light.xyz) / 2;
+        odd[b] = dot(lit, light.xyz) / 2;
     }
-    sun_light(instance, cell, point, n, even, odd, front, back);
+    sun_light(instance, cell, point, n, lit, even, odd, front, back);
     front += max(even + odd, 0);
     back += max(even - odd, 0);
-    sky_light(cell, n, front, back);
+    sky_light(cell, lit, front, back);
 }

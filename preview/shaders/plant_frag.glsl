@@ -2,7 +2,7 @@
 // linear.
 #version 330 core
 
-in vec3 point, facing;
+in vec3 point, facing, from_center;
 in vec2 on_texture;
 flat in int instance, scene_leaf;
 
@@ -36,7 +36,11 @@ vec3 wood_radiance(vec3 n, vec3 texel) {
 // A face shows what it reflects of its own light, and what comes through of the other's.
 vec3 leaf_radiance(vec3 n, bool in_front, vec3 texel) {
     vec3 front, back;
-    leaf_irradiance(scene_leaf, instance, point, n, front, back);
+    vec3 lit = n;
+    if (relief > 0)
+        lit = with_relief(n, point, from_center / leaf_size,
+                          dot(texel, vec3(1)) / dot(image_mean, vec3(1)));
+    leaf_irradiance(scene_leaf, instance, point, n, lit, front, back);
     if (false_color == 1)
         return rainbow(sun_share(instance, point, n));
     if (false_color == 2)

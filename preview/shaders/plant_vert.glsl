@@ -15,7 +15,7 @@ uniform float grow; // of leaves, where others are left out
 
 invariant gl_Position; // drawn twice: depths first
 
-out vec3 point, facing;
+out vec3 point, facing, from_center;
 out vec2 on_texture;
 flat out int instance, scene_leaf;
 
@@ -27,6 +27,7 @@ void main() {
     vec3 own_place = grow == 1 ? position : center + grow * (position - center);
     point = turned(own_place) * place.w + place.xyz;
     facing = turned(normal);
+    from_center = turned(position - center);
     on_texture = texture_place;
     instance = int(own.x);
     scene_leaf = leaf == 0xffffffffu ? -1 : int(own.y + leaf);

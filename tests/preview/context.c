@@ -47,6 +47,7 @@ preview_options crowns_options(const char *model, unsigned sources) {
                          .height = CROWNS_HEIGHT,
                          .samples = 1,
                          .view = {-50, 15},
+                         .zoom = 1,
                          .stage = {.sources = sources, .map_texels = 256}};
     assert_true(options_model(model, &o.stage));
     o.stage.compensate = o.stage.way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;

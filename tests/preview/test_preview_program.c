@@ -72,7 +72,14 @@ static void options_change_the_picture(void **state) {
                                         "--view 30,40",
                                         "--exposure 0.5",
                                         "--component sun",
-                                        "--show scattered"};
+                                        "--show scattered",
+                                        "--split ss",
+                                        "--albedo 0.9",
+                                        "--albedo 0.9,0.1,0.1",
+                                        "--zoom 3",
+                                        "--relief 1",
+                                        "--detail 50",
+                                        "--model spp --scattered cell"};
     enum { BYTES = 3 * 96 * 80 };
     image plain = snapshot("");
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
@@ -89,13 +96,52 @@ static void options_change_the_picture(void **state) {
     free(dark.rgb);
 }
 
+/* The left half of a split picture is the model's, the right half the other's. */
+static void a_split_picture_has_a_half_of_each(void **state) {
+    (void)state;
+    image left = snapshot("--model ss"), right = snapshot("--model mc --rays 50000"),
+          both = snapshot("--model ss --split mc --rays 50000");
+    for (size_t i = 0; i < (size_t)both.width * both.height; i++) {
+        const image *from = i % both.width < both.width / 2 ? &left : &right;
+        assert_memory_equal(both.rgb + 3 * i, from->rgb + 3 * i, 3);
+    }
+    free(left.rgb);
+    free(right.rgb);
+    free(both.rgb);
+}
+
 static void times_are_csv(void **state) {
     (void)state;
+    static const char header[] = "step,work,ms,cpu_ms,per_second,instances,triangles,"
+                                 "cells,width,height,samples,renderer\n1,cells,";
     result r = program_run("--bench --model ss " SMALL OAK);
     assert_int_equal(r.status, 0);
-    assert_int_equal(strncmp(r.out, "step,seconds\n1 cells,", 21), 0);
-    assert_int_equal(count_lines(r.out), 8);
-    assert_non_null(strstr(r.err, "1 instances, 6806 triangles"));
+    assert_int_equal(strncmp(r.out, header, sizeof header - 1), 0);
+    assert_int_equal(count_lines(r.out), 14);
+    for (int step = 1; step <= 6; step++) {
+        char row[8];
+        snprintf(row, sizeof row, "\n%d,", step);
+        assert_non_null(strstr(r.out, row));
+    }
+    assert_non_null(strstr(r.out, ",1,6806,"));
+    assert_string_equal(r.err, "");
+    result_free(&r);
+}
+
+/* A box of four cards, each as wide as the box. */
+static void leaves_larger_than_cells_are_told(void **state) {
+    (void)state;
+    FILE *file = fopen("cards.obj", "w");
+    assert_non_null(file);
+    for (int i = 0; i < 4; i++) {
+        fprintf(file, "v 0 %d 0\nv 1 %d 0\nv 1 %d 1\nv 0 %d 1\n", i, i, i, i);
+    }
+    fputs("usemtl leaf\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\nf 13 14 15 16\n", file);
+    assert_int_equal(fclose(file), 0);
+    result r = program_run("--snapshot a.png --model ss " SMALL "cards.obj");
+    assert_int_equal(r.status, 0);
+    assert_int_equal(count_lines(r.err), 1);
+    assert_non_null(strstr(r.err, "leaves of 1 m are larger than the cells of 0.19 m"));
     result_free(&r);
 }
 
@@ -123,7 +169,19 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--snapshot a.png a.json b.json", "'b.json': one scene at a time", 2},
         {"--snapshot a.png missing.json", "missing.json", 2},
         {"--snapshot a.png broken.json", "broken.json", 2},
-        {"--snapshot no/such/a.png " SMALL OAK, "no/such/a.png", 1},
+        {"--snapshot no/such/a.png " SMALL OAK,
+         "--snapshot: cannot write 'no/such/a.png': No such file", 2},
+        {"--split fog " OAK, "--split: 'fog' is not possible; allowed: lattice, ", 2},
+        {"--split ss --bench " OAK, "--bench and --split", 2},
+        {"--albedo 1.5 " OAK, "--albedo: '1.5' is not possible; allowed: numbers", 2},
+        {"--albedo 0.5,, " OAK, "--albedo: '0.5,,' is not possible", 2},
+        {"--latitude 91 " OAK, "--latitude: '91' is not possible; allowed: a number",
+         2},
+        {"--zoom 0.5 " OAK, "--zoom: '0.5' is not possible; allowed: a number from", 2},
+        {"--detail x " OAK, "--detail: 'x' is not possible", 2},
+        {"--relief 2 " OAK, "--relief: '2' is not possible", 2},
+        {"--scattered leaf " OAK, "--scattered: 'leaf' is not possible; allowed: pixel",
+         2},
     };
     FILE *broken = fopen("broken.json", "w");
     assert_non_null(broken);
@@ -162,9 +220,11 @@ static void without_display_or_driver_it_says_so(void **state) {
 static void help_lists_every_option(void **state) {
     (void)state;
     static const char *const option[] = {
-        "--snapshot", "--bench", "--model", "--compensate", "--component",
-        "--sun",      "--view",  "--size",  "--show",       "--exposure",
-        "--samples",  "--rays",  "--jobs",  "--help",       "--version"};
+        "--snapshot", "--bench",     "--model",   "--compensate", "--component",
+        "--split",    "--scattered", "--albedo",  "--latitude",   "--zoom",
+        "--detail",   "--relief",    "--sun",     "--view",       "--size",
+        "--show",     "--exposure",  "--samples", "--rays",       "--jobs",
+        "--help",     "--version"};
     result r = program_run("--help");
     assert_int_equal(r.status, 0);
     for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
@@ -181,7 +241,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_snapshot_needs_no_display),
         cmocka_unit_test(options_change_the_picture),
+        cmocka_unit_test(a_split_picture_has_a_half_of_each),
         cmocka_unit_test(times_are_csv),
+        cmocka_unit_test(leaves_larger_than_cells_are_told),
         cmocka_unit_test(bad_usage_is_refused_in_one_line),
         cmocka_unit_test(without_display_or_driver_it_says_so),
         cmocka_unit_test(help_lists_every_option),

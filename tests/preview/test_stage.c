@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "preview/snapshot.h"
+#include "preview/stage_open.h"
 #include "support/support.h"
 #include "tests/preview/context.h"
 
@@ -158,11 +159,102 @@ static void a_moved_sun_gives_the_frame_of_a_fresh_one(void **state) {
     stage_close(fresh);
 }
 
+/* Mean light of the picture, and mean distance of two pictures over squares of 10 x 10
+ * pixels: what fewer leaves may change. */
+static double mean_light(const pps_picture *a) {
+    double sum = 0;
+    for (size_t i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+        sum += (double)a->rgb[i] / (3 * WIDTH * HEIGHT);
+    }
+    return sum;
+}
+
+static double mean_distance(const pps_picture *a, const pps_picture *b) {
+    enum { SIDE = 10 };
+    double sum = 0;
+    for (int square = 0; square < WIDTH * HEIGHT / (SIDE * SIDE); square++) {
+        int x = square % (WIDTH / SIDE) * SIDE, y = square / (WIDTH / SIDE) * SIDE;
+        double off = 0;
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            int i = 3 * ((y + k / SIDE) * WIDTH + x + k % SIDE);
+            off += (double)(a->rgb[i] - b->rgb[i]);
+        }
+        sum += fabs(off);
+    }
+    return sum / (WIDTH * HEIGHT);
+}
+
+/* Fewer, larger leaves keep area and light: with 8 pixels a quarter of the leaves are left
+ * or fewer; relief turns normals either way. Errors as in docs/preview.md. */
+static void looks_keep_the_light(void **state) {
+    (void)state;
+    pps_problem problem = {""};
+    preview_options o = crowns_options("lattice", PPS_ALL_LIGHT);
+    static const struct {
+        stage_look look;
+        double mean, squares;
+    } row[] = {{{.detail = 6}, 0.005, 0.05},
+               {{.detail = 12}, 0.01, 0.08},
+               {{.relief = 0.5}, 0.01, 0.01},
+               {{.relief = 1}, 0.02, 0.02}};
+    stage *s = stage_for(three_crowns(), &o);
+    pps_picture *plain = snapshot_draw(s, &o, &problem);
+    assert_non_null(plain);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        o.look = row[i].look;
+        pps_picture *other = snapshot_draw(s, &o, &problem);
+        assert_non_null(other);
+        double mean = mean_light(other) / mean_light(plain) - 1,
+               squares = mean_distance(other, plain) / mean_light(plain);
+        print_message("detail %g, relief %g: mean %+.2f %%, squares %.2f %%\n",
+                      o.look.detail, o.look.relief, 100 * mean, 100 * squares);
+        assert_true(squares > 0);
+        assert_true(fabs(mean) < row[i].mean);
+        assert_true(squares < row[i].squares);
+        pps_picture_free(other);
+    }
+    o.look = (stage_look){.all = true};
+    pps_picture *all = snapshot_draw(s, &o, &problem);
+    assert_memory_equal(all->rgb, plain->rgb, 3 * WIDTH * HEIGHT * sizeof(float));
+    pps_picture_free(all);
+    pps_picture_free(plain);
+    stage_close(s);
+}
+
+/* Albedo may change while a stage is open: the frame is that of a fresh one. */
+static void a_changed_albedo_gives_the_frame_of_a_fresh_one(void **state) {
+    (void)state;
+    static const char *const model[] = {"spp", "sppg", "leaf", "lattice"};
+    for (size_t i = 0; i < 4; i++) {
+        pps_problem problem = {""};
+        preview_options o = crowns_options(model[i], PPS_ALL_LIGHT);
+        pps_scene *scene = three_crowns(), *other = three_crowns();
+        set_albedo(other, 0, 0.8);
+        stage *s = stage_for(scene, &o), *fresh = stage_for(other, &o);
+        pps_picture *before = snapshot_draw(s, &o, &problem);
+        set_albedo(scene, 0, 0.8);
+        assert_true(stage_light_sky(s, &problem));
+        pps_picture *after = snapshot_draw(s, &o, &problem),
+                    *want = snapshot_draw(fresh, &o, &problem);
+        /* `lattice` goes on from its last answer, to 1e-3. */
+        double most = strcmp(model[i], "lattice") == 0 ? 2e-3 : 1e-6;
+        assert_true(mean_distance(after, want) <= most * mean_light(want));
+        assert_true(mean_distance(before, want) > 0.05 * mean_light(want));
+        pps_picture_free(before);
+        pps_picture_free(after);
+        pps_picture_free(want);
+        stage_close(s);
+        stage_close(fresh);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_pictures_by_rays),
         cmocka_unit_test(sky_and_shadow_are_where_rays_find_them),
         cmocka_unit_test(a_moved_sun_gives_the_frame_of_a_fresh_one),
+        cmocka_unit_test(looks_keep_the_light),
+        cmocka_unit_test(a_changed_albedo_gives_the_frame_of_a_fresh_one),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

@@ -1,0 +1,24 @@
+/* One picture by one stage, or by two, side by side in the same view.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PREVIEW_PAIR_H
+#define PREVIEW_PAIR_H
+
+#include "preview/options.h"
+
+/* The second is NULL where there is one alone. */
+typedef struct {
+    stage *of[2];
+} stage_pair;
+
+/* Open the stages that options ask for; false: the problem, and none is open. EXIT_USAGE
+ * goes to `rc` where the scene is to blame, else EXIT_FAILED. */
+bool pair_open(const preview_options *options, stage_pair *out, int *rc,
+               pps_problem *problem);
+void pair_close(stage_pair *pair);
+
+/* Draw into the bound frame buffer: the first left of column `at`, the second from there. */
+void pair_draw(const stage_pair *pair, int at, const pps_camera *camera, int width,
+               int height, const stage_look *look);
+
+#endif
