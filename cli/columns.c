@@ -65,7 +65,7 @@ static const column table_columns[] = {
     {"column", "string", NULL, "column of the table"},
     {"paper", "double", "1", "the printed figure; empty where there is none"},
     {"ours", "double", "1",
-     "the same measured here: percent in 1, 2, 3, crowns and figure7, trees a second in fps, "
+     "the same measured here: percent in 1, 2, 3, crowns and figure7, frames a second in fps, "
      "in 4 and 5 as the column says"},
     {"rms_rel", "double", "%",
      "1, 2: mean over angles and depths of the root mean square error / mean exact "

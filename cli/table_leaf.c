@@ -20,8 +20,6 @@
 #include "system.h"
 #include "values.h"
 
-/* ---- figure 7 ---- */
-
 /* With fewer paths (the paper took 256) the smallest crown's indirect light, whose mean is
  * over few leaves, has noise that counts: 11.3 % by 256 paths, 10.7 by 1024, 10.8 by 4096. */
 enum { N_SEEDS = 3, PIXELS = 256, N_VIEWS = 3, N_PARTS = 4, DEFAULT_PATHS = 1024 };
@@ -224,87 +222,4 @@ int table_figure7(const invocation *call) {
     rc = figure7_rows(&f, &out);
     progress_end(&f.meter);
     return output_close(&out, rc);
-}
-
-/* ---- frame rates ---- */
-
-/* B section 7: a tree of 98,000 triangles, here as many in square leaves. */
-enum { FPS_LEAVES = 49000 };
-
-static const struct {
-    const char *name;
-    unsigned sources;
-    double paper; /* frames a second of one tree, the whole picture, on its GPU */
-} lights[] = {
-    {"direct sky", PPS_SKY, 788},
-    {"direct sky + sun", PPS_SKY | PPS_SUN, 700},
-    {"all", PPS_SKY | PPS_SUN | PPS_SUN_INDIRECT, 667},
-};
-
-/* Trees a second that can be lit anew, from attenuations that are there. */
-static pps_status time_light(const pps_scene *scene, const float *att, unsigned sources,
-                             pps_irradiance *light, double *rate) {
-    double start = system_seconds(), seconds = 0;
-    pps_status status = PPS_OK;
-    int n = 0;
-
-    while (!status && seconds < 0.3) {
-        status = pps_leaf_light(scene, att, PPS_SUN_PRINTED, sources, light);
-        seconds = system_seconds() - start;
-        n++;
-    }
-    *rate = n / seconds;
-    return status;
-}
-
-static pps_status fps_rows(output *out, const pps_scene *scene, int threads) {
-    pps_attenuation_options options = {.threads = threads};
-    float *att = malloc(PPS_OCTANTS * scene->n_leaves * sizeof *att);
-    pps_irradiance *light = NULL;
-    double start = system_seconds();
-    pps_status status =
-        att ? pps_leaf_attenuation(scene, &options, att) : PPS_ERR_MEMORY;
-    table_row row = {.table = "fps",
-                     .row = "1 tree",
-                     .column = "trees prepared a second",
-                     .method = "leaf",
-                     .paper = CSV_EMPTY,
-                     .rms_rel = CSV_EMPTY,
-                     .ratio = CSV_EMPTY,
-                     .spread = CSV_EMPTY,
-                     .seconds_per_cell = CSV_EMPTY,
-                     .rms_leaf = CSV_EMPTY,
-                     .seconds_per_leaf = CSV_EMPTY};
-
-    row.ours = 1 / (system_seconds() - start);
-    if (!status && table_write(out, &row) == CLI_DONE)
-        status = pps_irradiance_create(scene, false, &light);
-    for (size_t i = 0; i < sizeof lights / sizeof lights[0] && !status; i++) {
-        row.column = lights[i].name;
-        row.paper = lights[i].paper;
-        status = time_light(scene, att, lights[i].sources, light, &row.ours);
-        if (!status && table_write(out, &row) != CLI_DONE)
-            break;
-    }
-    pps_irradiance_free(light);
-    free(att);
-    return status;
-}
-
-int table_fps(const invocation *call) {
-    pps_crown crown = {PPS_CROWN_UNIFORM, 5, FPS_LEAVES, 0};
-    pps_scene *scene = NULL;
-    output out;
-    int threads, rc;
-
-    if ((rc = value_threads(call, &threads)) ||
-        (rc = value_count(call, OPT_SEED, 0, UINT64_MAX, &crown.seed)) ||
-        (rc = output_open(&out, call)))
-        return rc;
-    pps_status status = make_scene(&crown, &scene);
-    if (!status)
-        status = fps_rows(&out, scene, threads);
-    pps_scene_free(scene);
-    return output_close(&out,
-                        status ? cli_failed("%s", pps_status_string(status)) : rc);
 }

@@ -71,7 +71,9 @@ static table_row make_row(const char *number, const char *row, const char *colum
                        .rms_rel = CSV_EMPTY,
                        .ratio = CSV_EMPTY,
                        .spread = CSV_EMPTY,
-                       .seconds_per_cell = CSV_EMPTY};
+                       .seconds_per_cell = CSV_EMPTY,
+                       .rms_leaf = CSV_EMPTY,
+                       .seconds_per_leaf = CSV_EMPTY};
 }
 
 static int write_count(table *t, size_t scene, const char *column, double paper,

@@ -295,8 +295,8 @@ static void scenes_that_come_along_have_names(void **state) {
     assert_string_equal(problem.text,
                         "no scene 'CHERRY17'; there are CHERRY16, CHERRY64, MAPLE16, "
                         "MAPLE64, spp-figure5, spp-figure7, leaf-figure7-1500, "
-                        "leaf-figure7-4000, leaf-figure7-9000, and files ending in "
-                        ".json");
+                        "leaf-figure7-4000, leaf-figure7-9000, leaf-trees-1, "
+                        "leaf-trees-4, leaf-trees-100, and files ending in .json");
 }
 
 /* ---- what is read ---- */
