@@ -42,7 +42,7 @@ rank(w) = w > 1e300 ? 7 : sum [i = 1:words(thicknesses)] \
     (real(word(thicknesses, i)) <= w * (1 + 1e-9) ? 1 : 0)
 band(i) = 8.5 * (words(albedos) - i)
 
-wide = 172; edge = 150; map = 230; beams = 330; gap = 44; head = 76; foot = 60
+wide = 172; edge = 150; map = 230; beams = 330; gap = 44; head = 108; foot = 12
 high_bank = map + beams + 3 * gap
 
 # A long name on two lines.
@@ -72,7 +72,7 @@ do for [m = 1:words(methods)] {
     y = head + bank * high_bank + gap
     high = map
     @panel
-    set title broken(name) offset 0,-0.7 font ",11"
+    set title broken(name) offset 0,-0.7 font (strlen(name) > 28 ? ",9" : ",11")
     set xrange [-9.5:10.9]
     set yrange [-0.5:16.9]
     set xtics ("10^{-6}" -6, "1" 0, "10^6" 6, "∞" 10.4)
@@ -113,16 +113,17 @@ do for [m = 1:words(methods)] {
     do for [i = 1:words(albedos)] { unset label 10+i }
 }
 
+# The key, between the title and the maps.
 @legend_below
 set key center center horizontal font ",11" samplen 1 width 0 maxrows 1
-set tmargin at screen 1.0*foot/h
-set bmargin at screen 0
+set tmargin at screen 1-58.0/h
+set bmargin at screen 1-86.0/h
 set pointsize 2.2
-plot NaN with points pointtype 5 linecolor rgb 0x1A9641 title "ok", \
-    NaN with points pointtype 5 linecolor rgb 0xA6D96A title "ok, to 50 %", \
-    NaN with points pointtype 5 linecolor rgb 0xFFE066 title "error < 10^{-3}", \
-    NaN with points pointtype 5 linecolor rgb 0xFDAE61 title "error < 1", \
-    NaN with points pointtype 5 linecolor rgb 0xD7191C title "error > 1", \
+plot NaN with points pointtype 5 linecolor rgb 0x1A9641 title "right", \
+    NaN with points pointtype 5 linecolor rgb 0xA6D96A title "right to 50 %", \
+    NaN with points pointtype 5 linecolor rgb 0xFFE066 title "wrong < 10^{-3}", \
+    NaN with points pointtype 5 linecolor rgb 0xFDAE61 title "wrong < 1", \
+    NaN with points pointtype 5 linecolor rgb 0xD7191C title "wrong > 1", \
     NaN with points pointtype 5 linecolor rgb 0x7B3294 title "negative", \
     NaN with points pointtype 5 linecolor rgb 0x000000 title "not finite", \
     NaN with points pointtype 5 linecolor rgb 0x4575B4 title "over 10 s", \
