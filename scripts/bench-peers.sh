@@ -61,5 +61,19 @@ say "side by side on core $core"
 taskset -c "$core" "$venv/bin/python" "$peers/bench.py" "${quick[@]}" \
     --shim "$out/peers_ppscat.so" --out "$out" \
     --hard-cases "$root/data/reference/discrete_hard_cases.csv"
+
+say "cdisort itself, compiled -O3 and called from C, beside ppscat"
+nanodisort=$(grep '^nanodisort==' "$peers/requirements.txt")
+if "$venv/bin/pip" download -q --disable-pip-version-check --no-deps \
+    --no-binary nanodisort -d "$out" "$nanodisort"; then
+    tar -xzf "$out/nanodisort-${nanodisort#*==}.tar.gz" -C "$out"
+    cdisort=$(dirname "$(find "$out/nanodisort-${nanodisort#*==}" -name cdisort.c)")
+    cmake -S "$root" -B "$build" -DPPSCAT_CDISORT="$cdisort" >/dev/null
+    cmake --build "$build" --target ppscat-bench
+    taskset -c "$core" "$build/tests/bench/ppscat-bench" "$out/cdisort.csv" \
+        2>/dev/null | tee "$out/cdisort.txt"
+else
+    say "its source cannot be had, skipped"
+fi
 say "the results"
 printf '%s\n' "$out"/*.csv "$out"/*.md

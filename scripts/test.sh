@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Build and test: the sanitizers first, then the plain build.
-# Usage: scripts/test.sh [--all]        --all adds the slow tests
+# Usage: scripts/test.sh [--all]        --all adds the slow tests and, with clang, TSan
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -9,7 +9,7 @@ select=(--label-exclude slow)
 packages=("${build_packages[@]}" clang-format libopenmpi-dev openmpi-bin)
 case "$#:${1-}" in
 0:) ;;
-1:--all) select=() packages+=(gnuplot-nox fonts-dejavu-core) ;;
+1:--all) select=() packages+=(gnuplot-nox fonts-dejavu-core clang libomp-dev) ;;
 *) die "usage: scripts/test.sh [--all]" ;;
 esac
 
@@ -19,3 +19,9 @@ for preset in asan dev; do
     cmake --build --preset "$preset"
     ctest --preset "$preset" "${select[@]}"
 done
+
+if [[ ${1-} == --all ]]; then # threads: the fast tests, some twenty times slower
+    configure tsan
+    cmake --build --preset tsan
+    ctest --preset tsan --label-exclude 'slow|package'
+fi

@@ -2,7 +2,7 @@
  *
  *     ppscat-bench [FILE.csv]
  *
- * One thread, results in memory, CPU seconds, the least of several rounds. Single cases
+ * One thread, results in memory, CPU seconds, the least of many rounds. Single cases
  * are timed from nothing (create, solve, output, free) with an allocator that keeps its
  * pages; a sweep keeps what it may keep.
  * Targets are multiples of cdisort's speed. Built with PPSCAT_CDISORT=FOLDER, the source of
@@ -30,8 +30,15 @@
 
 #include "bench_cdisort.h"
 
-enum { ROUNDS = 9, N_DEPTHS = 10, N_MU = 16, N_PHI = 19, MOST_STREAMS = 64 };
-static const double ROUND_SECONDS = 0.05;
+enum {
+    LEAST_ROUNDS = 5,
+    MOST_ROUNDS = 300,
+    N_DEPTHS = 10,
+    N_MU = 16,
+    N_PHI = 19,
+    MOST_STREAMS = 64
+};
+static const double ROUND_SECONDS = 0.002, SECONDS = 1.5; /* short: between others */
 
 static double now(void) {
     struct timespec t;
@@ -90,9 +97,11 @@ static void run_round(job *j) {
     j->best = fmin(j->best, (now() - start) / (double)j->repeats);
 }
 
-/* Seconds of one run of each, the least of ROUNDS means, in turn. */
+/* Seconds of one run of each, the least of many short rounds, in turn. */
 static void take_turns(job *a, job *b) {
-    for (int round = 0; round < ROUNDS; round++) {
+    double end = now() + SECONDS;
+    for (int round = 0; round < LEAST_ROUNDS || (round < MOST_ROUNDS && now() < end);
+         round++) {
         run_round(a);
         run_round(b);
     }
