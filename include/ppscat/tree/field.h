@@ -45,6 +45,7 @@ PPS_API void pps_light_field_forget(pps_light_field *field);
 PPS_API void pps_light_field_free(pps_light_field *field); /* NULL is fine */
 
 /* Irradiance of every leaf from a field, with the direct light among `sources` (0: all).
+ * Where the cells have leaf_sun, the sun's is each leaf's own (not for models by counts).
  * PPS_SUN_INDIRECT and PPS_SKY_INDIRECT add whatever scattered light was solved for. */
 PPS_API pps_status pps_light_field_leaves(const pps_light_field *field,
                                           const pps_scene *scene,
