@@ -52,7 +52,8 @@ static void options(void) {
 static void keys(void) {
     puts(".SH KEYS AND MOUSE\n"
          "The panel shows these settings. The first key of a row is more or next, the\n"
-         "second less or before; of pairs of arrows and brackets they are the other way\n"
+         "second less or before; of pairs of arrows and brackets they are the other "
+         "way\n"
          "round.");
     for (const setting *row = settings_table; row->keys; row++) {
         char text[200];
@@ -65,25 +66,28 @@ static void keys(void) {
 }
 
 int main(void) {
-    puts(".TH PPSCAT\\-PREVIEW 1 \"\" \"ppscat " PPS_VERSION_STRING
-         "\" \"User Commands\"\n"
-         ".SH NAME\n"
-         "ppscat\\-preview \\- plants in the light that a model finds, in a window or a "
-         "picture\n"
-         ".SH SYNOPSIS\n"
-         ".B ppscat\\-preview\n"
-         ".RI [ OPTION ]...\n"
-         ".RI [ SCENE ]\n"
-         ".SH DESCRIPTION\n"
-         "Shows a scene (.json) or a mesh (what Assimp reads); without one, a grove of\n"
-         "cherries. The file is read again when it changes. Needs OpenGL 3.3; a software\n"
-         "driver will do.");
+    puts(
+        ".TH PPSCAT\\-PREVIEW 1 \"\" \"ppscat " PPS_VERSION_STRING
+        "\" \"User Commands\"\n"
+        ".SH NAME\n"
+        "ppscat\\-preview \\- plants in the light that a model finds, in a window or a "
+        "picture\n"
+        ".SH SYNOPSIS\n"
+        ".B ppscat\\-preview\n"
+        ".RI [ OPTION ]...\n"
+        ".RI [ SCENE ]\n"
+        ".SH DESCRIPTION\n"
+        "Shows a scene (.json) or a mesh (what Assimp reads); without one, a grove of\n"
+        "cherries. The file is read again when it changes. Needs OpenGL 3.3; a "
+        "software\n"
+        "driver will do.");
     options();
     keys();
-    puts(".SH EXIT STATUS\n"
-         "0 done; 2 bad usage or a broken scene; 1 anything else. One line on standard\n"
-         "error says why.\n"
-         ".SH SEE ALSO\n"
-         ".BR ppscat (1)");
+    puts(
+        ".SH EXIT STATUS\n"
+        "0 done; 2 bad usage or a broken scene; 1 anything else. One line on standard\n"
+        "error says why.\n"
+        ".SH SEE ALSO\n"
+        ".BR ppscat (1)");
     return 0;
 }

@@ -134,7 +134,8 @@ static void add_leaves(filling *f, size_t material, gpu_group *group) {
         n += here;
         area += here ? mesh->leaf[i].area : 0;
     }
-    for (size_t k = 0, i = 0; k < mesh->n_leaves; k++, i = (i + step) % mesh->n_leaves) {
+    for (size_t k = 0, i = 0; k < mesh->n_leaves;
+         k++, i = (i + step) % mesh->n_leaves) {
         const pps_leaf *leaf = &mesh->leaf[i];
         if (leaf->material != material) {
             continue;

@@ -13,7 +13,8 @@ int offscreen_run(const preview_options *options, offscreen_work *work,
     stage_pair pair;
     char warning[200];
     int rc = EXIT_FAILED;
-    pps_scene *scene = scene_for(options, problem); /* broken: the driver is not asked */
+    pps_scene *scene =
+        scene_for(options, problem); /* broken: the driver is not asked */
     if (!scene) {
         return EXIT_USAGE;
     }

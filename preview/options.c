@@ -47,10 +47,11 @@ static void print_wrapped(FILE *out, const char *text, int column) {
 }
 
 void options_help(FILE *out) {
-    fputs("Usage: ppscat-preview [OPTIONS] [SCENE]\n"
-          "Show a scene (.json) or a mesh in the light that a model finds; without one, "
-          "a grove\nof cherries. In the window, h lists the keys.\n\n",
-          out);
+    fputs(
+        "Usage: ppscat-preview [OPTIONS] [SCENE]\n"
+        "Show a scene (.json) or a mesh in the light that a model finds; without one, "
+        "a grove\nof cherries. In the window, h lists the keys.\n\n",
+        out);
     for (const preview_option *o = options_table; o->name; o++) {
         int column = fprintf(out, "  --%s%s%s", o->name, o->metavar ? " " : "",
                              o->metavar ? o->metavar : "");
@@ -392,18 +393,17 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
     const char *model = "lattice";
     bool compensate_given = false;
     int id;
-    *out = (preview_options){.width = 1280,
-                             .height = 720,
-                             .samples = 4,
-                             .view = {-60, 10},
-                             .exposure = 1,
-                             .zoom = 1,
-                             .latitude = 50,
-                             .albedo = {NAN, NAN, NAN, NAN},
-                             .look = {.relief = 0.5},
-                             .stage = {.sources = PPS_ALL_LIGHT,
-                                       .by_point = true,
-                                       .map_texels = 512}};
+    *out = (preview_options){
+        .width = 1280,
+        .height = 720,
+        .samples = 4,
+        .view = {-60, 10},
+        .exposure = 1,
+        .zoom = 1,
+        .latitude = 50,
+        .albedo = {NAN, NAN, NAN, NAN},
+        .look = {.relief = 0.5},
+        .stage = {.sources = PPS_ALL_LIGHT, .by_point = true, .map_texels = 512}};
     struct option known[N_OPTIONS + 1];
     list_options(known);
     options_model(model, &out->stage);

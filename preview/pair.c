@@ -11,9 +11,9 @@ bool pair_open(const preview_options *options, stage_pair *out, int *rc,
     for (int i = 0; i < (options->split ? 2 : 1); i++) {
         pps_scene *scene = scene_for(options, problem);
         *rc = scene ? EXIT_FAILED : EXIT_USAGE;
-        out->of[i] = scene ? stage_open(scene, i ? &options->second : &options->stage,
-                                        problem)
-                           : NULL;
+        out->of[i] =
+            scene ? stage_open(scene, i ? &options->second : &options->stage, problem)
+                  : NULL;
         if (!out->of[i]) {
             pair_close(out);
             return false;

@@ -131,8 +131,8 @@ static setting_effect change_component(settings *s, int step) {
 }
 
 static void write_component(const settings *s, char *out, size_t size) {
-    static const char *const name[] = {"all",          "sun",      "sun indirect", "sky",
-                                       "sky indirect", "some parts"};
+    static const char *const name[] = {"all", "sun",          "sun indirect",
+                                       "sky", "sky indirect", "some parts"};
     snprintf(out, size, "%s", name[component_of(s)]);
 }
 
@@ -264,8 +264,9 @@ const setting settings_table[] = {
      write_split_at, change_split_at},
     {"g G", KEY(G), "G-factor", "of models that take one: none, derived, printed",
      write_g, change_g},
-    {"p P", KEY(P), "scattered sun", "by pixel or by cell, in models that count surfaces",
-     write_scattered, change_scattered},
+    {"p P", KEY(P), "scattered sun",
+     "by pixel or by cell, in models that count surfaces", write_scattered,
+     change_scattered},
     {"c C", KEY(C), "light", "all of it, or one component", write_component,
      change_component},
     {"1 !", KEY(1), "albedo, red", "of leaves, in the first band", write_red,

@@ -19,9 +19,9 @@ typedef struct {
 typedef enum {
     EFFECT_NONE,
     EFFECT_DRAW,
-    EFFECT_SUN,   /* the sun's light anew */
+    EFFECT_SUN,    /* the sun's light anew */
     EFFECT_LEAVES, /* the leaves' albedo, and all light */
-    EFFECT_OPEN   /* the scene anew */
+    EFFECT_OPEN    /* the scene anew */
 } setting_effect;
 
 typedef struct {

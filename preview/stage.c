@@ -189,12 +189,12 @@ static bool compile_all(stage *s, pps_problem *problem) {
                                 : "by_opacity+sun+spp+leaf_light+relief+plant_frag",
                          problem)
             : 0;
-    s->ground_program =
-        s->plant_program
-            ? gl_program("ground_vert",
-                         counts ? "by_count+sun+ground_frag" : "by_opacity+sun+ground_frag",
-                         problem)
-            : 0;
+    s->ground_program = s->plant_program
+                            ? gl_program("ground_vert",
+                                         counts ? "by_count+sun+ground_frag"
+                                                : "by_opacity+sun+ground_frag",
+                                         problem)
+                            : 0;
     s->sky_program =
         s->ground_program ? gl_program("screen_vert", "sky_frag", problem) : 0;
     return s->sky_program != 0;

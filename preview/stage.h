@@ -36,7 +36,8 @@ typedef struct {
     double detail; /* pixels: where leaves are smaller, fewer and larger ones stand for
                       them, until they are that large; 0: every leaf */
     double relief; /* of leaves, 0 to 1 */
-    bool all;      /* also plants that are out of view (to see what leaving them out saves) */
+    bool
+        all; /* also plants that are out of view (to see what leaving them out saves) */
 } stage_look;
 
 /* Seconds: [0..4] the system's steps 1 to 5, [5] the sun's maps on the GPU. */
@@ -57,9 +58,9 @@ typedef struct stage {
     double seconds[STAGE_TIMES];
     size_t n_triangles; /* of all instances */
     pps_box box;
-    double (*ball)[4]; /* about each prototype: middle and radius */
-    gpu_mesh *mesh;    /* of each prototype */
-    GLuint *instances; /* buffers of each prototype's instances, */
+    double (*ball)[4];              /* about each prototype: middle and radius */
+    gpu_mesh *mesh;                 /* of each prototype */
+    GLuint *instances;              /* buffers of each prototype's instances, */
     GLsizei (*n_drawn)[GPU_LEVELS]; /* in view, of each level of detail */
     stage_sun sun;
     gl_table cell_of, scattered, sky_shares, leaf_light;

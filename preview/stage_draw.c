@@ -54,8 +54,7 @@ static size_t find_seen(const stage *s, const view *v, const stage_look *look,
         }
         if (look->all || view_has(v, off, radius)) {
             double distance = sqrt(square);
-            order[n++] =
-                (seen){distance, i, level_of(s, at, distance - radius, pixel)};
+            order[n++] = (seen){distance, i, level_of(s, at, distance - radius, pixel)};
         }
     }
     qsort(order, n, sizeof *order, nearer);

@@ -84,7 +84,8 @@ bool stage_open_ground(stage *s, pps_problem *problem) {
     static const float none[] = {0, 0, 0, 0};
     double low[2], extent[2];
     stage_sun light = {0};
-    GLuint frame, program = gl_program("screen_vert", "by_opacity+sun+open_frag", problem);
+    GLuint frame,
+        program = gl_program("screen_vert", "by_opacity+sun+open_frag", problem);
     if (!program ||
         !gpu_maps_create(MAP_TEXELS, s->sun.maps.n, false, &light.maps, problem)) {
         glDeleteProgram(program);

@@ -40,8 +40,7 @@ static void depth_range(const pps_box *all, const pps_camera *camera,
     *near = fmax(most / 1000, 0.02);
 }
 
-void view_set(const pps_box *box, const pps_camera *camera, double aspect,
-              view *v) {
+void view_set(const pps_box *box, const pps_camera *camera, double aspect, view *v) {
     double near, far;
     for (int i = 0; i < 3; i++) {
         v->eye[i] = camera->eye[i];

@@ -154,17 +154,20 @@ static void write_settings(const view_window *w, char *text, size_t size) {
 }
 
 static void write_times(const view_window *w, char *text, size_t size) {
-    size_t used = (size_t)snprintf(text, size, "frame %.0f ms", 1000 * w->frame_seconds);
+    size_t used =
+        (size_t)snprintf(text, size, "frame %.0f ms", 1000 * w->frame_seconds);
     for (int i = 0; i < 2 && w->stages.of[i]; i++) {
         const stage *s = w->stages.of[i];
         const double *t = s->seconds;
-        used += (size_t)snprintf(
-            text + used, size - used,
-            "\n%s, ms: 1 cells %.0f, 2 maps %.0f, 3 G %.0f, 4 sky %.0f, 5 sun %.0f + %.0f",
-            options_model_name(&s->options), 1000 * t[0], 1000 * t[1], 1000 * t[2],
-            1000 * t[3], 1000 * t[4], 1000 * t[5]);
+        used +=
+            (size_t)snprintf(text + used, size - used,
+                             "\n%s, ms: 1 cells %.0f, 2 maps %.0f, 3 G %.0f, 4 sky "
+                             "%.0f, 5 sun %.0f + %.0f",
+                             options_model_name(&s->options), 1000 * t[0], 1000 * t[1],
+                             1000 * t[2], 1000 * t[3], 1000 * t[4], 1000 * t[5]);
     }
-    snprintf(text + used, size - used, "\n%zu triangles; h: help, Tab: no panel%s%s%s%s",
+    snprintf(text + used, size - used,
+             "\n%zu triangles; h: help, Tab: no panel%s%s%s%s",
              w->stages.of[0]->n_triangles, w->warning[0] ? "\n" : "", w->warning,
              w->note[0] ? "\n" : "", w->note);
 }
@@ -176,9 +179,8 @@ static void write_help(char *text, size_t size) {
                                  row->name, row->help);
     }
     for (int i = 0; settings_other_keys[i][0] && used < size; i++) {
-        used +=
-            (size_t)snprintf(text + used, size - used, "%-13s%s\n",
-                             settings_other_keys[i][0], settings_other_keys[i][1]);
+        used += (size_t)snprintf(text + used, size - used, "%-13s%s\n",
+                                 settings_other_keys[i][0], settings_other_keys[i][1]);
     }
 }
 
@@ -284,7 +286,7 @@ static bool fit_window(view_window *w, int width, int height, pps_problem *probl
            frame_create((width + 1) / 2, (height + 1) / 2, 1, &w->coarse, problem);
 }
 
-static bool draw(view_window *w, pps_problem *problem) {
+bool window_draw(view_window *w, pps_problem *problem) {
     int width, height;
     glfwGetFramebufferSize(w->window, &width, &height);
     if (width < 1 || height < 1) { /* an icon */
@@ -361,7 +363,7 @@ static bool loop(view_window *w, pps_problem *problem) {
     while (!glfwWindowShouldClose(w->window)) {
         if (w->dirty || w->sun_moved) {
             glfwPollEvents();
-            if (!draw(w, problem)) {
+            if (!window_draw(w, problem)) {
                 return false;
             }
         } else {
@@ -375,7 +377,16 @@ static bool loop(view_window *w, pps_problem *problem) {
     return true;
 }
 
-static void close_window(view_window *w) {
+bool window_open(const preview_options *options, view_window *w, pps_problem *problem) {
+    *w = (view_window){.settings = {.options = *options, .split_at = 0.5}};
+    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
+        window_start_view(w);
+        return true;
+    }
+    return false;
+}
+
+void window_close(view_window *w) {
     if (w->window) {
         pair_close(&w->stages);
         frame_free(&w->fine);
@@ -395,19 +406,16 @@ int window_run(const preview_options *options, pps_problem *problem) {
         strcpy(problem->text, "out of memory");
         return rc;
     }
-    w->settings.options = *options;
-    w->settings.split_at = 0.5;
     pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
     if (!scene) {
         free(w);
         return EXIT_USAGE;
     }
     pps_scene_free(scene);
-    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
-        window_start_view(w);
+    if (window_open(options, w, problem)) {
         rc = loop(w, problem) ? EXIT_DONE : EXIT_FAILED;
     }
-    close_window(w);
+    window_close(w);
     free(w);
     return rc;
 }

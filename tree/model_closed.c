@@ -258,14 +258,14 @@ static pps_status solve_consistent(const pps_lit_scene *lit, pps_light_field *fi
                                             .compensates = (g),                        \
                                             .ops = &ops_##id};
 ROW(ss, "ss", "direct light alone", PAPER, true, PPS_SLAB_DARK, true, solve_ss)
-ROW(spp, "spp", "simplified plane-parallel model, kappa = 1", PAPER, true, PPS_SLAB_SPP, true,
-    solve_spp)
+ROW(spp, "spp", "simplified plane-parallel model, kappa = 1", PAPER, true, PPS_SLAB_SPP,
+    true, solve_spp)
 ROW(spp_printed, "spp-printed", "the same with Eq. 20 as printed, kappa = 1/T", PAPER,
     true, PPS_SLAB_SPP_PRINTED, true, solve_printed)
-ROW(hemispheric, "hemispheric", "SPP's hemispheres with mean cosine 1/2", OURS, true, PPS_SLAB_HEMISPHERIC,
-    true, solve_hemispheric)
+ROW(hemispheric, "hemispheric", "SPP's hemispheres with mean cosine 1/2", OURS, true,
+    PPS_SLAB_HEMISPHERIC, true, solve_hemispheric)
 ROW(march_g, "march-g", "the slab's light times G, marched along real paths", OURS,
     false, PPS_SLAB_DARK, true, solve_march_g)
 ROW(self_consistent, "self-consistent",
-    "the slab's light scaled so that marching gives it back", OURS, false, PPS_SLAB_DARK, false,
-    solve_consistent)
+    "the slab's light scaled so that marching gives it back", OURS, false,
+    PPS_SLAB_DARK, false, solve_consistent)

@@ -387,9 +387,8 @@ pps_status pps_system_shade_point(const pps_system *system, unsigned sources, si
                                   double *front, double *back) {
     shader s;
     pps_scene_leaf leaf;
-    pps_status status = i < system->scene->n_leaves
-                            ? shader_init(system, sources, &s)
-                            : PPS_ERR_ARGUMENT;
+    pps_status status = i < system->scene->n_leaves ? shader_init(system, sources, &s)
+                                                    : PPS_ERR_ARGUMENT;
     if (!status) {
         pps_scene_leaf_at(system->scene, i, &leaf);
         place at = {.leaf = i, .instance = leaf.instance};

@@ -29,8 +29,8 @@ typedef struct {
     int n[3];
     double low[3], size;
     size_t n_cells;
-    bool *leafy;       /* [cell] */
-    uint32_t *cell_of; /* [leaf] */
+    bool *leafy;           /* [cell] */
+    uint32_t *cell_of;     /* [leaf] */
     pps_opacity_map **map; /* [direction] */
 } coarse;
 
@@ -378,15 +378,14 @@ static pps_status find_g(pps_system_own *own) {
 
 /* Add the scattered light of one distant light of irradiance e[band] in a cell. */
 static void add_light(pps_system_own *own, int which, size_t c,
-                      const pps_prototype *prototype,
-                      const double to[3], double d, double w, double g,
-                      const double *e) {
+                      const pps_prototype *prototype, const double to[3], double d,
+                      double w, double g, const double *e) {
     instances *way = own->way;
     size_t bands = (size_t)own->system.scene->n_bands;
     for (size_t b = 0; b < bands; b++) {
         pps_slab_light light;
-        pps_slab_light_init(&light, own->slab, pps_leaf_albedo(&prototype->optics, (int)b),
-                            w);
+        pps_slab_light_init(&light, own->slab,
+                            pps_leaf_albedo(&prototype->optics, (int)b), w);
         float net = (float)(e[b] * g * pps_slab_light_net(&light, d) / 2);
         way->diffuse[which][c * bands + b] +=
             (float)(e[b] * g * pps_slab_light_sum(&light, d));
@@ -408,8 +407,7 @@ static void light_instance_by_sky(pps_system_own *own, size_t i, int j,
     const pps_scene *scene = own->system.scene;
     instances *way = own->way;
     size_t n = (size_t)own->system.directions.n;
-    const pps_prototype *prototype =
-        &scene->prototype[scene->instance[i].prototype];
+    const pps_prototype *prototype = &scene->prototype[scene->instance[i].prototype];
     for (size_t c = way->first[i]; c < way->first[i + 1]; c++) {
         if (leafy(way, scene, i, c)) {
             size_t at = c * n + (size_t)j;

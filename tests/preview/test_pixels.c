@@ -31,10 +31,10 @@ static pps_line through_pixel(const pps_camera *camera, int x, int y) {
     vec_cross(back, right, up);
     memcpy(line.origin, camera->eye, sizeof line.origin);
     for (int i = 0; i < 3; i++) {
-        line.direction[i] = tangent * ((2 * x + 1 - WIDTH) * right[i] +
-                                       (HEIGHT - 2 * y - 1) * up[i]) /
-                                HEIGHT -
-                            back[i];
+        line.direction[i] =
+            tangent * ((2 * x + 1 - WIDTH) * right[i] + (HEIGHT - 2 * y - 1) * up[i]) /
+                HEIGHT -
+            back[i];
     }
     vec_normalize(line.direction);
     return line;
@@ -66,8 +66,7 @@ static bool is_same(const stage *s, unsigned sources, double closed,
     double reach = rounding * (vec_length(line->origin) + hit->distance) / steep;
     double off_along = rounding * vec_length(hit->point);
     const pps_sun *sun = &s->scene->sun;
-    double most =
-        (closed + OPERATIONS * (double)FLT_EPSILON) * sun->irradiance[0] / PI;
+    double most = (closed + OPERATIONS * (double)FLT_EPSILON) * sun->irradiance[0] / PI;
     vec_frame(hit->normal, across, along);
     for (int k = 0; k < 16 && fabs(got - want) > most; k++) {
         double off[3], x = reach * cos(k * PI / 4), y = reach * sin(k * PI / 4),
@@ -150,11 +149,11 @@ static void pixels_are_the_library_s(void **state) {
         assert_non_null(frame);
         likeness like = compare(s, &o, row[i].closed, frame);
         double n = (double)like.n, same = (double)like.same / n;
-        print_message("%-11s sources %2u, albedo %.2f: mean %.5f of the library's, mean "
-                      "difference %.3f %%, %.2f %% of %zu pixels the same\n",
-                      row[i].model, row[i].sources, row[i].albedo,
-                      like.got / like.want, 100 * like.off / like.want, 100 * same,
-                      like.n);
+        print_message(
+            "%-11s sources %2u, albedo %.2f: mean %.5f of the library's, mean "
+            "difference %.3f %%, %.2f %% of %zu pixels the same\n",
+            row[i].model, row[i].sources, row[i].albedo, like.got / like.want,
+            100 * like.off / like.want, 100 * same, like.n);
         assert_true(like.n > 10000);
         assert_true(same >= 0.995);
         assert_true(like.off < 0.02 * like.want);

@@ -175,7 +175,8 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--split ss --bench " OAK, "--bench and --split", 2},
         {"--albedo 1.5 " OAK, "--albedo: '1.5' is not possible; allowed: numbers", 2},
         {"--albedo 0.5,, " OAK, "--albedo: '0.5,,' is not possible", 2},
-        {"--latitude 91 " OAK, "--latitude: '91' is not possible; allowed: a number", 2},
+        {"--latitude 91 " OAK, "--latitude: '91' is not possible; allowed: a number",
+         2},
         {"--zoom 0.5 " OAK, "--zoom: '0.5' is not possible; allowed: a number from", 2},
         {"--detail x " OAK, "--detail: 'x' is not possible", 2},
         {"--relief 2 " OAK, "--relief: '2' is not possible", 2},
@@ -219,10 +220,11 @@ static void without_display_or_driver_it_says_so(void **state) {
 static void help_lists_every_option(void **state) {
     (void)state;
     static const char *const option[] = {
-        "--snapshot", "--bench", "--model", "--compensate", "--component",
-        "--split", "--scattered", "--albedo", "--latitude", "--zoom", "--detail", "--relief",
-        "--sun",      "--view",  "--size",  "--show",       "--exposure",
-        "--samples",  "--rays",  "--jobs",  "--help",       "--version"};
+        "--snapshot", "--bench",     "--model",   "--compensate", "--component",
+        "--split",    "--scattered", "--albedo",  "--latitude",   "--zoom",
+        "--detail",   "--relief",    "--sun",     "--view",       "--size",
+        "--show",     "--exposure",  "--samples", "--rays",       "--jobs",
+        "--help",     "--version"};
     result r = program_run("--help");
     assert_int_equal(r.status, 0);
     for (size_t i = 0; i < sizeof option / sizeof *option; i++) {

@@ -41,9 +41,9 @@ typedef struct pps_system_options {
     bool kappa_printed;      /* INSTANCES: Eq. 20 as printed */
     bool by_point; /* models by counts: scattered light of the sun by the depths at the
                       very point (SPP section 5.3), not by those of its cell */
-    int across; /* cells across the longest side of a plant's leaves; 0: 16 for GRID,
+    int across;    /* cells across the longest side of a plant's leaves; 0: 16 for GRID,
                        10 for INSTANCES */
-    int texels; /* of the maps towards the directions; 0: 64 for INSTANCES,
+    int texels;    /* of the maps towards the directions; 0: 64 for INSTANCES,
  256 for GRID */
     int sun_texels; /* of the sun's maps; 0: 256 */
     int samples;    /* GRID: points a leaf that find its cells; 0: 1 */
