@@ -286,7 +286,7 @@ static bool fit_window(view_window *w, int width, int height, pps_problem *probl
            frame_create((width + 1) / 2, (height + 1) / 2, 1, &w->coarse, problem);
 }
 
-static bool draw(view_window *w, pps_problem *problem) {
+bool window_draw(view_window *w, pps_problem *problem) {
     int width, height;
     glfwGetFramebufferSize(w->window, &width, &height);
     if (width < 1 || height < 1) { /* an icon */
@@ -363,7 +363,7 @@ static bool loop(view_window *w, pps_problem *problem) {
     while (!glfwWindowShouldClose(w->window)) {
         if (w->dirty || w->sun_moved) {
             glfwPollEvents();
-            if (!draw(w, problem)) {
+            if (!window_draw(w, problem)) {
                 return false;
             }
         } else {
@@ -377,7 +377,16 @@ static bool loop(view_window *w, pps_problem *problem) {
     return true;
 }
 
-static void close_window(view_window *w) {
+bool window_open(const preview_options *options, view_window *w, pps_problem *problem) {
+    *w = (view_window){.settings = {.options = *options, .split_at = 0.5}};
+    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
+        window_start_view(w);
+        return true;
+    }
+    return false;
+}
+
+void window_close(view_window *w) {
     if (w->window) {
         pair_close(&w->stages);
         frame_free(&w->fine);
@@ -397,19 +406,16 @@ int window_run(const preview_options *options, pps_problem *problem) {
         strcpy(problem->text, "out of memory");
         return rc;
     }
-    w->settings.options = *options;
-    w->settings.split_at = 0.5;
     pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
     if (!scene) {
         free(w);
         return EXIT_USAGE;
     }
     pps_scene_free(scene);
-    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
-        window_start_view(w);
+    if (window_open(options, w, problem)) {
         rc = loop(w, problem) ? EXIT_DONE : EXIT_FAILED;
     }
-    close_window(w);
+    window_close(w);
     free(w);
     return rc;
 }

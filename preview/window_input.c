@@ -83,11 +83,11 @@ static double pixel_ratio(GLFWwindow *window) {
 
 /* The setting under the cursor, and which half of its value; NULL: none. */
 static const setting *under_cursor(view_window *w, int *step) {
-    double x, y, ratio = pixel_ratio(w->window);
+    double ratio = pixel_ratio(w->window);
     int line, column;
-    glfwGetCursorPos(w->window, &x, &y);
     if (w->bare || w->help ||
-        !panel_at(&w->settings_place, w->scale, x * ratio, y * ratio, &line, &column)) {
+        !panel_at(&w->settings_place, w->scale, w->last[0] * ratio, w->last[1] * ratio,
+                  &line, &column)) {
         return NULL;
     }
     for (int i = 0; i <= line; i++) {
@@ -100,11 +100,10 @@ static const setting *under_cursor(view_window *w, int *step) {
 }
 
 static bool on_split(const view_window *w) {
-    double x, y;
     int width;
-    glfwGetCursorPos(w->window, &x, &y);
     glfwGetWindowSize(w->window, &width, NULL);
-    return w->stages.of[1] && fabs(x - w->settings.split_at * width) < NEAR_LINE;
+    return w->stages.of[1] &&
+           fabs(w->last[0] - w->settings.split_at * width) < NEAR_LINE;
 }
 
 static void on_button(GLFWwindow *window, int button, int action, int mods) {

@@ -32,11 +32,20 @@ typedef struct {
     int scale;                               /* pixels a dot of letters */
     bool help, bare, dirty, sun_moved, save; /* bare: without the panel of settings */
     drag drag;
-    double last[2], frame_seconds;
+    double last[2]; /* place of the cursor, as its last event had it */
+    double frame_seconds;
     struct timespec changed; /* of the scene's file */
     char warning[200], note[600];
     int pictures;
 } view_window;
+
+/* Open it with the scene that options ask for; false: the problem. To be closed either
+ * way. */
+bool window_open(const preview_options *options, view_window *w, pps_problem *problem);
+void window_close(view_window *w);
+
+/* Draw a frame of what is there now, and what is written over it. */
+bool window_draw(view_window *w, pps_problem *problem);
 
 /* Read the scene and light it, the sun staying where it is if `keep`. On failure what was
  * there stays, and a note tells why. */

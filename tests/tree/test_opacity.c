@@ -10,6 +10,7 @@
 
 #include "plants.h"
 #include "support/support.h"
+#include "tree/opacity_look.h"
 #include "tree/rays.h"
 #include "tree/vec.h"
 
@@ -48,6 +49,24 @@ static void a_stack_of_sheets_is_counted_sheet_by_sheet(void **state) {
     }
     const double below[3] = {0.5, 0.4, -0.01};
     assert_close(pps_opacity_depth(map, below), N, 0, 0);
+    pps_opacity_map_free(map);
+    pps_mesh_free(mesh);
+}
+
+/* Where it is all that a texel holds too, whatever rounding makes of its place. */
+static void a_leaf_is_not_in_its_own_shade(void **state) {
+    (void)state;
+    static const double normal[3] = {0, 0, 1}, to[3] = {0.48, 0.36, 0.8};
+    const square at[] = {{0, 0, 0.3, LEAF}};
+    pps_mesh *mesh = squares(1, at);
+    pps_opacity_map *map = map_of(mesh, to, 32);
+    for (int i = 0; i < 400; i++) {
+        const double point[3] = {0.1 + 0.04 * (i % 20), 0.1 + 0.04 * (i / 20), 0.3};
+        pps_opacity_look look;
+        assert_true(pps_opacity_look_at(map, point, normal, &look));
+        assert_close(look.depth, 0, 0, 0);
+        assert_close(look.behind, 0, 0, 0);
+    }
     pps_opacity_map_free(map);
     pps_mesh_free(mesh);
 }
@@ -224,6 +243,7 @@ static void bad_arguments_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stack_of_sheets_is_counted_sheet_by_sheet),
+        cmocka_unit_test(a_leaf_is_not_in_its_own_shade),
         cmocka_unit_test(neighbours_share_no_texel),
         cmocka_unit_test(counts_add_up_to_projected_areas),
         cmocka_unit_test(cut_out_alpha_lets_light_through),

@@ -1,0 +1,189 @@
+/* The window by what its events do to it: files dropped, wheel, size, a dense screen, keys.
+ * Under a virtual display.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "preview/window_own.h"
+#include "support/support.h"
+
+static const char OAK[] = PPS_DATA_DIR "/trees/oak_small.obj";
+
+/* As a desktop tells programs of a dense screen; the tool may not be there. */
+static const char DENSE[] = "xprop -root -f RESOURCE_MANAGER 8s "
+                            "-set RESOURCE_MANAGER 'Xft.dpi: 192' 2>/dev/null";
+static bool dense;
+
+static view_window w;
+
+static void write_cards(const char *path, int n) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int i = 0; i < n; i++) {
+        fprintf(file, "v 0 %d 0\nv 9 %d 0\nv 9 %d 9\nv 0 %d 9\n", i, i, i, i);
+    }
+    fputs("usemtl leaf\n", file);
+    for (int i = 0; i < n; i++) {
+        fprintf(file, "f %d %d %d %d\n", 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static int setup(void **state) {
+    (void)state;
+    static char arguments[][24] = {"p", "--model", "leaf",    "--samples",
+                                   "1", "--size",  "300x240", "window-cards.obj"};
+    char *argv[9] = {NULL};
+    preview_options options;
+    pps_problem problem = {""};
+    for (int i = 0; i < 8; i++) {
+        argv[i] = arguments[i];
+    }
+    write_cards("window-cards.obj", 4);
+    dense = system(DENSE) == 0;
+    if (!options_read(8, argv, &options, &problem) ||
+        !window_open(&options, &w, &problem) || !window_draw(&w, &problem)) {
+        print_message("%s\n", problem.text);
+        return -1;
+    }
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    window_close(&w);
+    return 0;
+}
+
+static void draw(void) {
+    pps_problem problem = {""};
+    if (!window_draw(&w, &problem)) {
+        fail_msg("%s", problem.text);
+    }
+}
+
+/* The callback that the window has registered is called as GLFW would. */
+static void drop(const char *path) {
+    GLFWdropfun call = glfwSetDropCallback(w.window, NULL);
+    call(w.window, 1, &path);
+    glfwSetDropCallback(w.window, call);
+}
+
+static void wheel(double y) {
+    GLFWscrollfun call = glfwSetScrollCallback(w.window, NULL);
+    call(w.window, 0, y);
+    glfwSetScrollCallback(w.window, call);
+}
+
+static void key(int code, int mods) {
+    GLFWkeyfun call = glfwSetKeyCallback(w.window, NULL);
+    call(w.window, code, 0, GLFW_PRESS, mods);
+    glfwSetKeyCallback(w.window, call);
+}
+
+static void a_dropped_mesh_is_opened_and_framed(void **state) {
+    (void)state;
+    double far = w.orbit.distance;
+    assert_int_equal(w.stages.of[0]->n_triangles, 8);
+    drop(OAK);
+    assert_string_equal(w.note, "");
+    assert_int_equal(w.stages.of[0]->n_triangles, 6806);
+    assert_true(w.orbit.distance != far);
+    draw();
+}
+
+static void a_dropped_file_that_is_no_scene_changes_nothing(void **state) {
+    (void)state;
+    size_t n = w.stages.of[0]->n_triangles;
+    drop("no-such-file.obj");
+    assert_non_null(strstr(w.note, "no-such-file.obj"));
+    assert_int_equal(w.stages.of[0]->n_triangles, n);
+    assert_null(strstr(w.scene_path, "no-such-file"));
+    draw();
+}
+
+static void a_reload_keeps_the_camera_and_the_sun(void **state) {
+    (void)state;
+    drop("window-cards.obj");
+    key(GLFW_KEY_LEFT, 0);
+    wheel(3);
+    orbit before = w.orbit;
+    double sun = w.settings.sun[0];
+    write_cards("window-cards.obj", 6);
+    key(GLFW_KEY_R, 0);
+    assert_int_equal(w.stages.of[0]->n_triangles, 12);
+    assert_memory_equal(&before, &w.orbit, sizeof before);
+    assert_close(w.settings.sun[0], sun, 0, 1e-9);
+}
+
+static void the_wheel_comes_nearer(void **state) {
+    (void)state;
+    key(GLFW_KEY_TAB, 0); /* no panel that may lie under the cursor */
+    draw();
+    double far = w.orbit.distance;
+    wheel(1);
+    assert_close(w.orbit.distance, far / 1.1, 1e-12, 0);
+    wheel(-1);
+    assert_close(w.orbit.distance, far, 1e-12, 0);
+    key(GLFW_KEY_TAB, 0);
+    draw();
+}
+
+static void frames_follow_the_window_s_size(void **state) {
+    (void)state;
+    glfwSetWindowSize(w.window, 200, 160);
+    for (int i = 0; i < 100 && w.fine.width != 200; i++) {
+        glfwWaitEventsTimeout(0.05);
+        draw();
+    }
+    assert_int_equal(w.fine.width, 200);
+    assert_int_equal(w.fine.height, 160);
+}
+
+/* On a screen of 192 dots an inch letters are twice as large. */
+static void letters_grow_with_the_screen_s_density(void **state) {
+    (void)state;
+    float scale;
+    glfwGetWindowContentScale(w.window, &scale, NULL);
+    print_message("content scale %g\n", (double)scale);
+    assert_true(!dense || scale == 2);
+    assert_int_equal(w.scale, (int)scale);
+    assert_int_equal(w.settings_place.x, 8 * (int)scale);
+}
+
+/* Each setting goes one way, and back; what it shows changes and is what it was. */
+static void every_setting_goes_and_comes_back(void **state) {
+    (void)state;
+    for (const setting *row = settings_table; row->keys; row++) {
+        char before[40], there[40], back[40];
+        row->write(&w.settings, before, sizeof before);
+        key(row->more, 0);
+        draw();
+        row->write(&w.settings, there, sizeof there);
+        key(row->less ? row->less : row->more, row->less ? 0 : GLFW_MOD_SHIFT);
+        draw();
+        row->write(&w.settings, back, sizeof back);
+        bool albedo = strncmp(row->name, "albedo", 6) == 0; /* in steps of 0.05 */
+        bool stays = strcmp(row->name, "G-factor") == 0;    /* `leaf` takes none */
+        if ((strcmp(before, there) == 0) != stays ||
+            (!albedo && strcmp(before, back) != 0)) {
+            fail_msg("%s: %s, %s, %s", row->name, before, there, back);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dropped_mesh_is_opened_and_framed),
+        cmocka_unit_test(a_dropped_file_that_is_no_scene_changes_nothing),
+        cmocka_unit_test(a_reload_keeps_the_camera_and_the_sun),
+        cmocka_unit_test(the_wheel_comes_nearer),
+        cmocka_unit_test(frames_follow_the_window_s_size),
+        cmocka_unit_test(letters_grow_with_the_screen_s_density),
+        cmocka_unit_test(every_setting_goes_and_comes_back),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
