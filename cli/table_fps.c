@@ -115,9 +115,9 @@ static int write_lights(table *t, size_t i, const pps_scene *scene) {
 
 /* How fast the preview draws them, all light; refused without one. */
 static int write_frames(table *t, size_t i) {
-    const char *const arguments[] = {"--model",     "leaf",  "--samples", "1",
-                                     "--component", "sky,sun,indirect",
-                                     "--jobs",      t->jobs, rows[i].scene, NULL};
+    const char *const arguments[] = {
+        "--model",          "leaf",   "--samples", "1",           "--component",
+        "sky,sun,indirect", "--jobs", t->jobs,     rows[i].scene, NULL};
     table_row row = make_row(i, "all, drawn", "leaf");
     preview_times times;
     int rc = preview_bench(arguments, &times, &row.refusal);

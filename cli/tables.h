@@ -26,6 +26,6 @@ int table_crowns(const invocation *call);
 int table_4(const invocation *call); /* table_system.c */
 int table_5(const invocation *call);
 int table_figure7(const invocation *call); /* table_leaf.c */
-int table_fps(const invocation *call); /* table_fps.c */
+int table_fps(const invocation *call);     /* table_fps.c */
 
 #endif
