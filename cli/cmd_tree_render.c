@@ -76,7 +76,7 @@ static int check_sheet(const invocation *call, const picture_wish *w,
                        const tree_asked *asked) {
     int across, down;
 
-    tree_panels_count(asked, &across, &down);
+    tree_panels_count(asked, w->width, &across, &down);
     if (across * w->width <= SHEET_MAX && down * w->height <= SHEET_MAX)
         return CLI_DONE;
     return cli_usage("--size: '%.60s' is too large for %d x %d panels; allowed: %d "

@@ -30,11 +30,17 @@ typedef struct {
     tree_answer *truth; /* of each component, for errors; else no light in it */
 } panels;
 
-void tree_panels_count(const tree_asked *asked, int *across, int *down) {
-    bool grid = asked->n_components > 1;
+enum { WIDE = 2400 }; /* pixels: more than screens show */
 
-    *across = (int)(grid ? asked->n_components : asked->n_methods);
-    *down = (int)(grid ? asked->n_methods : 1);
+void tree_panels_count(const tree_asked *asked, int width, int *across, int *down) {
+    int models = (int)asked->n_methods, components = (int)asked->n_components;
+
+    *across = components > 1 ? components : models;
+    *down = components > 1 ? models : 1;
+    if (*down == 1 && *across > 3 && *across * width > WIDE) {
+        *across = (*across + 1) / 2;
+        *down = 2;
+    }
 }
 
 /* ---- light ---- */
@@ -366,7 +372,7 @@ int tree_panels_draw(picture_wish *wish, tree_work *work, const tree_asked *aske
     panels all = {.wish = wish, .work = work};
     int across, down, refused = CLI_DONE, rc = panels_init(&all, asked);
 
-    tree_panels_count(asked, &across, &down);
+    tree_panels_count(asked, wish->width, &across, &down);
     if (rc == CLI_DONE)
         rc = find_light(&all);
     if (rc == CLI_REFUSED) {

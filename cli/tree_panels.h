@@ -35,7 +35,7 @@ typedef struct {
  * model does not know a component; CLI_USAGE when nothing can be shown. */
 int tree_panels_draw(picture_wish *wish, tree_work *work, const tree_asked *asked);
 
-/* Panels across and down. */
-void tree_panels_count(const tree_asked *asked, int *across, int *down);
+/* Panels of this width across and down: a row that is too wide for screens is folded. */
+void tree_panels_count(const tree_asked *asked, int width, int *across, int *down);
 
 #endif

@@ -134,7 +134,7 @@ pps_status pps_crown_grow(const pps_crown *crown, pps_mesh **out) {
     }
     double side = sqrt(crown->leaf_area_index * PI / n);
     for (uint32_t i = 0; i < n; i++) {
-        double center[3];
+        double center[3] = {0, 0, 0};
         place_leaf(crown, i, center);
         add_square(mesh, crown, i, center, side);
     }

@@ -27,11 +27,12 @@ int program_teardown(void **state) {
 }
 
 result program_shell(const char *command) {
-    char line[4096];
+    char line[5000];
     result r;
-    int status;
+    int status, length = snprintf(line, sizeof line,
+                                  "{ %s\n} >stdout 2>stderr </dev/null", command);
 
-    snprintf(line, sizeof line, "{ %s\n} >stdout 2>stderr </dev/null", command);
+    assert_in_range(length, 0, sizeof line - 1);
     status = system(line);
     r.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     r.out = read_file("stdout");
