@@ -49,8 +49,8 @@ static void print_wrapped(FILE *out, const char *text, int column) {
 void options_help(FILE *out) {
     fputs(
         "Usage: ppscat-preview [OPTIONS] [SCENE]\n"
-        "Show a scene (.json) or a mesh in the light that a model finds; without one, "
-        "a grove\nof cherries. In the window, h lists the keys.\n\n",
+        "Show a scene (.json) or a mesh in the light that a model finds; without one,\n"
+        "a grove of cherries. In the window, h lists the keys.\n\n",
         out);
     for (const preview_option *o = options_table; o->name; o++) {
         int column = fprintf(out, "  --%s%s%s", o->name, o->metavar ? " " : "",

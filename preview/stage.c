@@ -41,13 +41,19 @@ static bool fail(pps_status status, const char *what, pps_problem *problem) {
     return status != PPS_OK;
 }
 
+uint64_t stage_rays(const pps_scene *scene, uint64_t asked) {
+    enum { A_LEAF = 32, LEAST = 1000000 };
+    uint64_t enough = (uint64_t)A_LEAF * scene->n_leaves;
+    return asked ? asked : enough > LEAST ? enough : LEAST;
+}
+
 /* ---- light of leaves ---- */
 
 static pps_status light_leaves(stage *s) {
     pps_irradiance *light = NULL;
     pps_status status;
     if (s->options.way == STAGE_MONTE_CARLO) {
-        pps_trace_options trace = {.rays = s->options.rays,
+        pps_trace_options trace = {.rays = stage_rays(s->scene, s->options.rays),
                                    .sources = s->options.sources,
                                    .threads = s->options.threads};
         status = pps_trace_light(s->scene, &trace, &light, NULL);

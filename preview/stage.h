@@ -24,7 +24,7 @@ typedef struct {
     unsigned sources; /* pps_light_source, added */
     bool by_point;    /* models by counts: the sun's scattered light pixel by pixel */
     int map_texels;   /* of the sun's maps that shaders read */
-    uint64_t rays;    /* of MONTE_CARLO; 0: its default */
+    uint64_t rays;    /* of MONTE_CARLO, as stage_rays */
     int threads;      /* 0: all cores */
 } stage_options;
 
@@ -83,6 +83,9 @@ void stage_draw(stage *s, const pps_camera *camera, int width, int height,
 
 /* What makes a white plane under the open sky shine as brightly as can be shown. */
 double stage_exposure(const stage *s);
+
+/* Rays of MONTE_CARLO: as many as asked for, or (0) 32 a leaf and at least a million. */
+uint64_t stage_rays(const pps_scene *scene, uint64_t asked);
 
 /* The band that a colour (0 red, 1 green, 2 blue) is taken from; -1: none. */
 int stage_band(const pps_scene *scene, int color);

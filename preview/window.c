@@ -124,12 +124,11 @@ void window_apply(view_window *w, setting_effect effect, const settings *before)
 
 static bool light_sun(view_window *w, pps_problem *problem) {
     bool dragged = w->drag == DRAG_SUN || w->drag == DRAG_TIME;
-    uint64_t rays = w->settings.options.stage.rays;
-    rays = rays ? rays : 1000000;
     w->sun_moved = false;
     for (int i = 0; i < 2 && w->stages.of[i]; i++) {
         stage *s = w->stages.of[i];
         s->options.sources = w->settings.options.stage.sources;
+        uint64_t rays = stage_rays(s->scene, w->settings.options.stage.rays);
         s->options.rays = dragged ? rays / FEWER_RAYS + 1 : rays;
         turn_sun(s->scene, w->settings.sun[0], w->settings.sun[1]);
         if (!stage_light_sun(s, problem)) {
@@ -274,8 +273,8 @@ static void save_picture(view_window *w) {
 static bool fit_window(view_window *w, int width, int height, pps_problem *problem) {
     float scale;
     glfwGetWindowContentScale(w->window, &scale, NULL);
-    double letters = width < 900 * (double)scale ? 1 : 1.5;
-    w->scale = (int)fmax(letters * (double)scale, 1);
+    int letters = width < 1600 * (double)scale ? 1 : 2;
+    w->scale = (int)fmax(letters * (double)scale + 0.5, 1);
     if (width == w->fine.width && height == w->fine.height) {
         return true;
     }

@@ -7,8 +7,8 @@ layout(location = 2) in vec2 texture_place;
 layout(location = 3) in uint leaf;
 layout(location = 4) in vec4 place; // translation, scale
 layout(location = 5) in vec2 turn;  // cosine and sine of the yaw
-layout(location = 7) in vec3 center; // of the leaf
 layout(location = 6) in uvec2 own;  // number of the instance, of its first leaf
+layout(location = 7) in vec3 center; // of the leaf
 
 uniform mat4 to_clip;
 uniform float grow; // of leaves, where others are left out

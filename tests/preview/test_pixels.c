@@ -130,14 +130,11 @@ static void pixels_are_the_library_s(void **state) {
         unsigned sources;
         double albedo, closed;
     } row[] = {{"lattice", false, PPS_ALL_LIGHT, 0.9, 0},
-               {"ss", true, PPS_ALL_LIGHT, 0.9, 0},
-               {"spp", false, PPS_ALL_LIGHT, 0.9, 0},
                {"spp", true, PPS_ALL_LIGHT, 0.9, 0},
                {"spp", true, PPS_SUN_INDIRECT, 1, 4e-4},
                {"spp-printed", true, PPS_SUN_INDIRECT, 0.95, 0},
                {"hemispheric", true, PPS_SUN_INDIRECT, 0.75, 0},
-               {"sppg", true, PPS_ALL_LIGHT, 0.9, 0},
-               {"sppg", true, PPS_SUN_INDIRECT | PPS_SKY_INDIRECT, 0.3, 0}};
+               {"sppg", true, PPS_ALL_LIGHT, 0.3, 0}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         pps_problem problem = {""};
         preview_options o = crowns_options(row[i].model, row[i].sources);

@@ -224,8 +224,8 @@ static void looks_keep_the_light(void **state) {
 /* Albedo may change while a stage is open: the frame is that of a fresh one. */
 static void a_changed_albedo_gives_the_frame_of_a_fresh_one(void **state) {
     (void)state;
-    static const char *const model[] = {"spp", "sppg", "leaf", "lattice"};
-    for (size_t i = 0; i < 4; i++) {
+    static const char *const model[] = {"sppg", "leaf", "lattice"};
+    for (size_t i = 0; i < 3; i++) {
         pps_problem problem = {""};
         preview_options o = crowns_options(model[i], PPS_ALL_LIGHT);
         pps_scene *scene = three_crowns(), *other = three_crowns();

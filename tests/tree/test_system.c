@@ -246,6 +246,37 @@ static void the_papers_way_is_lit_as_by_rays(void **state) {
     pps_scene_free(scene);
 }
 
+/* A leaf is lit at its middle, whichever depths its scattered light is by. */
+static void a_leaf_has_the_light_of_its_middle(void **state) {
+    (void)state;
+    pps_scene *scene = grove(PPS_CROWN_CLUMPED, 72);
+    for (int by_point = 0; by_point < 2; by_point++) {
+        pps_system_options options = {.way = PPS_SYSTEM_INSTANCES,
+                                      .light.compensate = PPS_COMPENSATE_DERIVED,
+                                      .by_point = by_point};
+        pps_system *system = all_steps(scene, options);
+        pps_irradiance *light = shade(system, 0);
+        double front[PPS_BANDS_MAX], back[PPS_BANDS_MAX];
+        pps_scene_leaf leaf;
+        for (size_t i = 0; i < scene->n_leaves; i += 997) {
+            pps_scene_leaf_at(scene, i, &leaf);
+            step(pps_system_shade_point(system, 0, i, leaf.center, leaf.normal, front,
+                                        back));
+            assert_close(front[0], light->front[i * (size_t)scene->n_bands], 1e-14, 0);
+            assert_close(back[0], light->back[i * (size_t)scene->n_bands], 1e-14, 0);
+        }
+        assert_int_equal(pps_system_shade_point(system, 0, scene->n_leaves, leaf.center,
+                                                leaf.normal, front, back),
+                         PPS_ERR_ARGUMENT);
+        assert_int_equal(pps_system_shade_point(system, 16, 0, leaf.center, leaf.normal,
+                                                front, back),
+                         PPS_ERR_ARGUMENT);
+        pps_irradiance_free(light);
+        pps_system_free(system);
+    }
+    pps_scene_free(scene);
+}
+
 static void what_it_cannot_do_is_refused(void **state) {
     (void)state;
     pps_scene *scene = grove(PPS_CROWN_CLUMPED, 50);
@@ -275,6 +306,7 @@ int main(void) {
         cmocka_unit_test(turned_plants_see_turned_directions),
         cmocka_unit_test(the_grid_is_lit_as_by_rays),
         cmocka_unit_test(the_papers_way_is_lit_as_by_rays),
+        cmocka_unit_test(a_leaf_has_the_light_of_its_middle),
         cmocka_unit_test(what_it_cannot_do_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

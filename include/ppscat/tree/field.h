@@ -32,9 +32,9 @@ typedef struct pps_light_field {
 } pps_light_field;
 
 /* Solve the cells. *field NULL: make one. Else it comes from an earlier solve of the same
- * model, leaves, cells and number of bands (sun, sky, ground and options may differ),
- * and what did not move is not computed again. ARGUMENT: it does not fit. UNSUPPORTED: the
- * model has no cells, or lacks a source. On failure a new field is NULL, and an old one
+ * model, leaves, cells and number of bands (sun, sky, ground, optics and options may
+ * differ), and what did not move is not computed again. ARGUMENT: it does not fit.
+ * UNSUPPORTED: the model has no cells, or lacks a source. On failure a new field is NULL, and an old one
  * may only be freed or solved again. */
 PPS_API pps_status pps_light_field_solve(const pps_light_model *model,
                                          const pps_scene *scene, const pps_cells *cells,

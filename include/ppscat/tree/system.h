@@ -86,7 +86,8 @@ typedef struct pps_system {
 } pps_system;
 
 /* Check and make room. The scene must be indexed, outlive the system, and keep its
- * instances, meshes and optics; sun, sky and ground may change between steps. MEMORY;
+ * instances and meshes; sun, sky, ground and optics may change between steps (new optics
+ * need 4 and 5 again). MEMORY;
  * ARGUMENT: no leaves, or bad options; UNSUPPORTED: the model has no cells, or INSTANCES
  * with other turns or a scene that repeats. */
 PPS_API pps_status pps_system_create(const pps_scene *scene,
@@ -107,7 +108,7 @@ PPS_API pps_status pps_system_shade(pps_system *system, unsigned sources,
                                     pps_irradiance **out);
 
 /* The same at one point on leaf i of the scene, where the leaf's unit normal is `normal`:
- * [band], both faces. What a shader finds for a pixel. */
+ * [band], both faces. What a shader finds for a pixel. ARGUMENT: as above, or i. */
 PPS_API pps_status pps_system_shade_point(const pps_system *system, unsigned sources,
                                           size_t i, const double point[3],
                                           const double normal[3], double *front,
