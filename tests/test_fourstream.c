@@ -8,6 +8,8 @@
 #include <ppscat/ppscat.h>
 
 #include "core/quadrature.h"
+#include "core/vector.h"
+#include "solver/aureole.h"
 #include "spp/fourstream.h"
 #include "support/support.h"
 
@@ -52,6 +54,25 @@ static double solver_like(const pps_fourstream *four, double tau, double mu,
            four->slab.albedo / four->stretch * pps_hg(four->slab.g, x) * ray.beam;
 }
 
+/* What the solver adds to a radiance downwards for the aureole. */
+static double aureole(const pps_dom *dom, double mu0, double tau, double mu,
+                      double phi) {
+    double same[PPS_LANES], c[PPS_LANES], source[PPS_LANES], integral[PPS_LANES];
+    double coefficient[8];
+    if (mu < 0 || !pps_aureole_matters(dom)) {
+        return 0;
+    }
+    for (int i = 0; i < PPS_LANES; i++) {
+        same[i] = mu;
+        c[i] = 1 / mu;
+    }
+    assert_in_range(dom->discrete.n_moments, 1, 8);
+    pps_aureole_sources(dom, mu0, cos(phi * (PI / 180)), PPS_LANES, same, coefficient,
+                        source);
+    pps_aureole_rays(dom, mu0, tau, PPS_LANES, c, integral);
+    return source[0] * integral[0];
+}
+
 static void compare_with_solver(pps_slab slab, double mu0) {
     pps_dom_opts opts = {.streams = 4, .orders = 3, .nodes = PPS_NODES_GAUSS};
     pps_fourstream_nodes nodes = gauss_nodes();
@@ -69,7 +90,9 @@ static void compare_with_solver(pps_slab slab, double mu0) {
     pps_fourstream_solve(&four, slab.thickness, mu0);
     for (int i = 0; i < N_VALUES; i++) {
         double t = tau[i / N_PHI / N_MU], mu = mus[i / N_PHI % N_MU];
-        assert_close(solver_like(&four, t, mu, phis[i % N_PHI]), want[i], 1e-10, 1e-14);
+        double phi = phis[i % N_PHI];
+        double got = solver_like(&four, t, mu, phi) + aureole(dom, mu0, t, mu, phi);
+        assert_close(got, want[i], 1e-10, 1e-14);
     }
     for (int k = 0; k < N_TAU && slab.thickness > 0.1; k++) {
         pps_flux got = pps_fourstream_flux(&four, tau[k]);

@@ -1,4 +1,4 @@
-/* The table of light models, and what is common to all before and after they run.
+/* The table of light models, and running one of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
@@ -30,23 +30,6 @@ const pps_light_model *pps_light_model_find(const char *name) {
         }
     }
     return NULL;
-}
-
-pps_status pps_light_options_check(const pps_light_model *model,
-                                   const pps_light_options *given,
-                                   pps_light_options *options) {
-    *options = given ? *given : (pps_light_options){0};
-    if (!options->sources) {
-        options->sources = model->sources;
-    }
-    if (options->kappa < 0 || options->threads < 0 ||
-        options->sources > PPS_ALL_LIGHT || options->compensate < PPS_COMPENSATE_NONE ||
-        options->compensate > PPS_COMPENSATE_PRINTED) {
-        return PPS_ERR_ARGUMENT;
-    }
-    bool refused = (options->sources & ~model->sources) ||
-                   (options->compensate && !model->compensates);
-    return refused ? PPS_ERR_UNSUPPORTED : PPS_OK;
 }
 
 /* A model without cells writes leaves itself. */

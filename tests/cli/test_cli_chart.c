@@ -46,8 +46,8 @@ static void exact_is_charted_with_every_setting(void **state) {
     for (size_t i = 0; i < 6; i++, line = next_line(line)) {
         assert_field(line, 0, "exact");
         assert_field(line, 1, settings[i]);
-        if (i < 5)
-            assert_true(number(line, RMS_REL) < 0.1 * last);
+        if (i < 5) /* four streams have the aureole from its correction: 9 times to 8 */
+            assert_true(number(line, RMS_REL) < (i == 1 ? 0.2 : 0.1) * last);
         last = number(line, RMS_REL);
         assert_true(number(line, REFLECTANCE) < 0.1);
     }
