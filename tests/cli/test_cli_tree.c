@@ -278,9 +278,9 @@ static void bad_input_is_one_line_and_exit_2(void **state) {
          "'sun+split' has colours of its own"},
         {"tree irradiance bush.json --component sun+split",
          "unknown component 'sun+split'"},
-        {"tree render bush.json -o a.png --model ss --component "
+        {"tree render bush.json -o a.png --model ss,spp --component "
          "all,sun,indirect,sky --size 16384x16",
-         "--size: '16384x16' is too large for 4 x 1 panels"},
+         "--size: '16384x16' is too large for 4 x 2 panels"},
         {"tree render bush.json -o a.png --range 1,2", "--range is for --false-color"},
         {"tree render bush.json -o a.png --false-color depth --range 2,1", "is empty"},
         {"tree render bush.json -o a.png --false-color depth --model leaf",
