@@ -119,7 +119,7 @@ static void times_are_csv(void **state) {
     assert_int_equal(strncmp(r.out, header, sizeof header - 1), 0);
     assert_int_equal(count_lines(r.out), 14);
     for (int step = 1; step <= 6; step++) {
-        char row[8];
+        char row[16];
         snprintf(row, sizeof row, "\n%d,", step);
         assert_non_null(strstr(r.out, row));
     }
