@@ -74,6 +74,22 @@ int cmd_table(const invocation *call) {
                      list_tables(0, all, sizeof all));
 }
 
+table_row table_blank(const char *table, const char *row, const char *column,
+                      const char *method) {
+    return (table_row){.table = table,
+                       .row = row,
+                       .column = column,
+                       .method = method,
+                       .paper = CSV_EMPTY,
+                       .ours = CSV_EMPTY,
+                       .rms_rel = CSV_EMPTY,
+                       .ratio = CSV_EMPTY,
+                       .spread = CSV_EMPTY,
+                       .seconds_per_cell = CSV_EMPTY,
+                       .rms_leaf = CSV_EMPTY,
+                       .seconds_per_leaf = CSV_EMPTY};
+}
+
 int table_write(output *out, const table_row *row) {
     csv_text(&out->csv, row->table);
     csv_text(&out->csv, row->row);

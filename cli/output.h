@@ -18,7 +18,7 @@ typedef struct {
 /* Open what -o names and write the header row. CLI_USAGE where it cannot be written. */
 int output_open(output *out, const invocation *call);
 
-/* End a row; with a reason (static text), one that the method refused. */
+/* End a row; with a reason (static text), one that the method, or NULL, refused. */
 int output_end_row(output *out, const pps_method *method, const char *reason);
 
 /* Note what a method used for an output; what `auto` picked counts as itself. */

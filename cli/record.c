@@ -99,10 +99,12 @@ int record_add(record *r, const record *more) {
 void record_report(const record *r) {
     for (size_t i = 0; i < r->n_refused; i++) {
         const refused_count *one = &r->refused[i];
-        cli_note("%s%s%s refused %" PRIu64 " row%s: %s", one->method ? "method '" : "",
-                 one->method ? one->method->name : "the preview",
-                 one->method ? "'" : "", one->rows, one->rows == 1 ? "" : "s",
-                 one->reason);
+        const char *plural = one->rows == 1 ? "" : "s";
+        if (one->method)
+            cli_note("method '%s' refused %" PRIu64 " row%s: %s", one->method->name,
+                     one->rows, plural, one->reason);
+        else
+            cli_note("%" PRIu64 " row%s refused: %s", one->rows, plural, one->reason);
     }
 }
 

@@ -20,7 +20,7 @@ typedef struct {
     uint64_t outputs;
 } used_count;
 
-/* Rows that one method refused for one reason. */
+/* Rows that one method refused for one reason; NULL: what the reason itself names. */
 typedef struct {
     const pps_method *method;
     char *reason;
@@ -45,7 +45,7 @@ typedef struct {
  * counts as itself. */
 int record_used(record *r, const pps_method *method, const pps_info *info);
 
-/* Count rows that the method refused; they are not added to r->rows. */
+/* Count rows that the method, or NULL, refused; they are not added to r->rows. */
 int record_refused(record *r, const pps_method *method, const char *reason,
                    uint64_t rows);
 

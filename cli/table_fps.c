@@ -51,18 +51,7 @@ typedef struct {
 } table;
 
 static table_row make_row(size_t i, const char *column, const char *method) {
-    return (table_row){.table = "fps",
-                       .row = rows[i].name,
-                       .column = column,
-                       .method = method,
-                       .paper = CSV_EMPTY,
-                       .ours = CSV_EMPTY,
-                       .rms_rel = CSV_EMPTY,
-                       .ratio = CSV_EMPTY,
-                       .spread = CSV_EMPTY,
-                       .seconds_per_cell = CSV_EMPTY,
-                       .rms_leaf = CSV_EMPTY,
-                       .seconds_per_leaf = CSV_EMPTY};
+    return table_blank("fps", rows[i].name, column, method);
 }
 
 /* Seconds to light every leaf. */

@@ -132,20 +132,15 @@ static void fill_column(const paper_table *table, const case_grid *grid,
 static int write_cell(output *out, const paper_table *table, size_t row,
                       const paper_column *column, const pps_method *method,
                       const cell *c) {
-    return table_write(out, &(table_row){.table = table->number,
-                                         .row = row_names[row],
-                                         .column = column->name,
-                                         .method = method->name,
-                                         .paper = column->paper[row],
-                                         .ours = c->refusal ? CSV_EMPTY : c->rms_abs,
-                                         .rms_rel = c->refusal ? CSV_EMPTY : c->rms_rel,
-                                         .ratio = CSV_EMPTY,
-                                         .spread = CSV_EMPTY,
-                                         .seconds_per_cell = CSV_EMPTY,
-                                         .rms_leaf = CSV_EMPTY,
-                                         .seconds_per_leaf = CSV_EMPTY,
-                                         .refused_by = c->refused_by,
-                                         .refusal = c->refusal});
+    table_row r =
+        table_blank(table->number, row_names[row], column->name, method->name);
+
+    r.paper = column->paper[row];
+    r.ours = c->refusal ? CSV_EMPTY : c->rms_abs;
+    r.rms_rel = c->refusal ? CSV_EMPTY : c->rms_rel;
+    r.refused_by = c->refused_by;
+    r.refusal = c->refusal;
+    return table_write(out, &r);
 }
 
 static int write_table(const paper_table *table, const case_grid *grid, output *out,

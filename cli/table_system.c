@@ -60,25 +60,9 @@ static int run_preview(table *t, const char *scene, const char *model,
     return system_signal() ? cli_failed("interrupted; nothing is written") : rc;
 }
 
-static table_row make_row(const char *number, const char *row, const char *column,
-                          const char *method) {
-    return (table_row){.table = number,
-                       .row = row,
-                       .column = column,
-                       .method = method,
-                       .paper = CSV_EMPTY,
-                       .ours = CSV_EMPTY,
-                       .rms_rel = CSV_EMPTY,
-                       .ratio = CSV_EMPTY,
-                       .spread = CSV_EMPTY,
-                       .seconds_per_cell = CSV_EMPTY,
-                       .rms_leaf = CSV_EMPTY,
-                       .seconds_per_leaf = CSV_EMPTY};
-}
-
 static int write_count(table *t, size_t scene, const char *column, double paper,
                        double ours) {
-    table_row row = make_row("4", scenes[scene].name, column, "sppg");
+    table_row row = table_blank("4", scenes[scene].name, column, "sppg");
 
     row.paper = paper;
     row.ours = ours;
@@ -100,8 +84,8 @@ static int write_scene(table *t, size_t scene, const preview_times *times,
     if (rc == CLI_DONE)
         rc = write_count(t, scene, "cells", scenes[scene].cells, (double)any->cells);
     for (size_t i = 0; i < N_TIMINGS && rc == CLI_DONE; i++) {
-        table_row row = make_row("4", scenes[scene].name, timings[i].name,
-                                 timings[i].on_gpu ? any->renderer : t->processor);
+        table_row row = table_blank("4", scenes[scene].name, timings[i].name,
+                                    timings[i].on_gpu ? any->renderer : t->processor);
         row.paper = scenes[scene].ms[i];
         row.ours = ms[i] = time_of(times, &timings[i]);
         rc = table_write(&t->out, &row);
@@ -116,7 +100,7 @@ static int write_growth(table *t, size_t few, double ms[N_SCENES][N_TIMINGS]) {
 
     snprintf(name, sizeof name, "%s / %s", scenes[few + 1].name, scenes[few].name);
     for (size_t i = 0; i < N_TIMINGS && rc == CLI_DONE; i++) {
-        table_row row = make_row("4", name, timings[i].name, "sppg");
+        table_row row = table_blank("4", name, timings[i].name, "sppg");
         row.paper = scenes[few + 1].ms[i] / scenes[few].ms[i];
         row.ours = ms[few + 1][i] / ms[few][i];
         rc = table_write(&t->out, &row);
@@ -126,7 +110,7 @@ static int write_growth(table *t, size_t few, double ms[N_SCENES][N_TIMINGS]) {
 
 static int write_refusal(table *t, const char *number, const char *row,
                          const char *why) {
-    table_row refused = make_row(number, row, "", "sppg");
+    table_row refused = table_blank(number, row, "", "sppg");
 
     refused.refusal = why;
     return table_write(&t->out, &refused);
@@ -174,7 +158,7 @@ static int write_picture(table *t, const char *scene, const char *label,
     for (size_t i = 0; i < sizeof before / sizeof before[0]; i++)
         whole += preview_ms(times, before[i]) / 1000;
     snprintf(column, sizeof column, "%s, s", label);
-    table_row row = make_row("5", scene, column, times->row[0].renderer);
+    table_row row = table_blank("5", scene, column, times->row[0].renderer);
     row.ours = whole + moved;
     int rc = table_write(&t->out, &row);
     snprintf(column, sizeof column, "%s, sun moved, s", label);

@@ -13,11 +13,14 @@ typedef struct {
     const char *table, *row, *column, *method;
     double paper, ours, rms_rel, ratio, spread, seconds_per_cell, rms_leaf,
         seconds_per_leaf;         /* or CSV_EMPTY */
-    const pps_method *refused_by; /* where `refusal` is said */
+    const pps_method *refused_by; /* NULL where no method is to blame */
     const char *refusal;          /* static text; NULL: not refused */
 } table_row;
 
-int table_write(output *out, const table_row *row); /* cmd_table.c */
+/* A row without numbers. */
+table_row table_blank(const char *table, const char *row, const char *column,
+                      const char *method); /* cmd_table.c */
+int table_write(output *out, const table_row *row);
 
 int table_1(const invocation *call); /* table_slab.c */
 int table_2(const invocation *call);

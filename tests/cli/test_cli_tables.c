@@ -103,12 +103,25 @@ static void a_table_is_a_run_of_error(void **state) {
     result_free(&error);
 }
 
+/* Its rows are empty then, and growth of what was not measured is empty too. */
+static void without_a_preview_its_rows_are_refused(void **state) {
+    result r = program_shell("cp \"$P\" alone && PATH=/nowhere ./alone table 4");
+
+    (void)state;
+    assert_int_equal(r.status, 3);
+    assert_non_null(strstr(r.err, "4 rows refused: ppscat-preview is not there"));
+    assert_int_equal(count_lines(r.out), 1 + 4 + 2 * 4);
+    assert_non_null(strstr(r.out, "\n4,CHERRY16,,,,,sppg,,,,,\n"));
+    result_free(&r);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(table_1_refined_is_what_the_prototype_gave),
         cmocka_unit_test(table_1_unrefined_is_what_the_prototype_gave),
         cmocka_unit_test(table_2_agrees_with_table_1),
         cmocka_unit_test(a_table_is_a_run_of_error),
+        cmocka_unit_test(without_a_preview_its_rows_are_refused),
     };
 
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
