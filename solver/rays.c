@@ -194,18 +194,32 @@ PPS_CLONES void pps_series_rays(size_t n, size_t stride, const double *moment,
 
 /* ---- azimuth ---- */
 
-PPS_CLONES bool pps_add_order(size_t n, size_t n_phi, const double *cosine,
-                              const double *term, double tolerance, double *value) {
-    four excess = {0}; /* of a term over its tolerance */
-    for (size_t i = 0; i < n; i += FOUR) {
-        four t = four_at(term + i), size = four_abs(t);
-        double *to = value + i;
-        for (size_t p = 0; p < n_phi; p++, to += n) {
-            four sum = four_at(to) + cosine[p] * t;
-            four above = size - tolerance * four_abs(sum);
-            four_to(to, sum);
-            excess = four_choose(above > excess, above, excess);
+PPS_CLONES static void add_terms(size_t n, size_t n_phi, const double *restrict cosine,
+                                 const double *restrict term, double *restrict value) {
+    for (size_t p = 0; p < n_phi; p++) {
+        double factor = cosine[p];
+        for (size_t i = 0; i < n; i++) {
+            value[p * n + i] += factor * term[i];
         }
     }
-    return !four_any(excess > 0);
+}
+
+/* Most orders are told by their first few numbers. */
+PPS_CLONES static bool is_small(size_t n, size_t n_phi, const double *term,
+                                double tolerance, const double *value) {
+    for (size_t p = 0; p < n_phi; p++) {
+        for (size_t i = 0; i < n; i += FOUR) {
+            four size = four_abs(four_at(term + i));
+            if (four_any(size > tolerance * four_abs(four_at(value + p * n + i)))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool pps_add_order(size_t n, size_t n_phi, const double *cosine, const double *term,
+                   double tolerance, double *value) {
+    add_terms(n, n_phi, cosine, term, value);
+    return is_small(n, n_phi, term, tolerance, value);
 }
