@@ -18,7 +18,9 @@ double pps_hg(double g, double cos_theta) {
 }
 
 double pps_cos_degrees(double angle) {
-    double turn = fabs(remainder(angle, 360));
+    /* The remainder by 360: both 360 times a whole number and the difference are exact. */
+    double turn = fabs(angle) < 1e9 ? fabs(angle - 360 * rint(angle / 360))
+                                    : fabs(remainder(angle, 360));
     if (turn == 60 || turn == 120) {
         return turn == 60 ? 0.5 : -0.5;
     }

@@ -298,20 +298,21 @@ static void project(field *s, const pps_order *order, const double **ge,
     *go = s->go;
 }
 
-/* e^(-k tau), e^(-k (w - tau)) and their roots, every mode and depth. */
-static void mode_exponentials(field *s, const pps_order *order) {
+/* Roots of e^(-k tau) and e^(-k (w - tau)), and their squares, every mode and depth. */
+PPS_CLONES static void mode_exponentials(field *s, const pps_order *order) {
     size_t all = s->at->n_tau * s->n;
     for (size_t k = 0; k < s->at->n_tau; k++) {
         for (size_t j = 0; j < s->n; j++) {
-            size_t i = k * s->n + j;
-            s->mode[0][i] = -order->k[j] * s->tau[k];
-            s->mode[2][i] = -order->k[j] * s->rest[k];
-            s->mode[1][i] = s->mode[0][i] / 2;
-            s->mode[3][i] = s->mode[2][i] / 2;
+            s->mode[1][k * s->n + j] = -order->k[j] * s->tau[k] / 2;
+            s->mode[3][k * s->n + j] = -order->k[j] * s->rest[k] / 2;
         }
     }
-    for (int i = 0; i < 4; i++) {
-        pps_exp_array(all, s->mode[i], s->mode[i]);
+    for (int side = 0; side < 4; side += 2) {
+        double *restrict square = s->mode[side], *restrict root = s->mode[side + 1];
+        pps_exp_array(all, root, root);
+        for (size_t i = 0; i < all; i++) {
+            square[i] = root[i] * root[i];
+        }
     }
 }
 
