@@ -15,6 +15,7 @@
 
 typedef double four __attribute__((vector_size(32)));
 typedef int64_t four_int __attribute__((vector_size(32)));
+typedef int64_t two_int __attribute__((vector_size(16)));
 typedef uint64_t four_bits __attribute__((vector_size(32)));
 /* The same in memory, at any address. */
 typedef double four_there __attribute__((vector_size(32), aligned(8), may_alias));
@@ -30,7 +31,9 @@ PPS_LANE four four_choose(four_int mask, four yes, four no) {
     return (four)((mask & (four_int)yes) | (~mask & (four_int)no));
 }
 PPS_LANE int four_any(four_int mask) {
-    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+    two_int half = __builtin_shufflevector(mask, mask, 0, 1) |
+                   __builtin_shufflevector(mask, mask, 2, 3);
+    return (half[0] | half[1]) != 0;
 }
 PPS_LANE four four_abs(four x) {
     return (four)((four_int)x & (four_int){INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX});
@@ -92,28 +95,63 @@ PPS_LANE four four_decay_mean(four z, four root) {
     return four_choose(z < 1, root * four_sinh_over(z * z / 4), (1 - root * root) / z);
 }
 
+/* E2 of expdiff.h over t^2 e^(-low t) from the differences x <= y of the other two rates
+ * from the lowest, times t; y < 1: the sum over i of (-1)^i h_i / (i + 2)!,
+ * h_i = x^i + y h_(i-1). */
+PPS_LANE four four_exp2_series(four x, four y) {
+    static const double over_factorial[] = {
+        1.0 / 2,
+        1.0 / 6,
+        1.0 / 24,
+        1.0 / 120,
+        1.0 / 720,
+        1.0 / 5040,
+        1.0 / 40320,
+        1.0 / 362880,
+        1.0 / 3628800,
+        1.0 / 39916800,
+        1.0 / 479001600,
+        1.0 / 6227020800,
+        1.0 / 87178291200,
+        1.0 / 1307674368000,
+        1.0 / 20922789888000,
+        1.0 / 355687428096000,
+        1.0 / 6402373705728000,
+        1.0 / 121645100408832000,
+        1.0 / 2432902008176640000,
+    };
+    four power = four_of(1), h = power, sum = four_of(over_factorial[0]);
+    for (size_t i = 1; i < sizeof over_factorial / sizeof *over_factorial; i++) {
+        power = -x * power;
+        h = power - y * h;
+        sum += h * over_factorial[i];
+    }
+    return sum;
+}
+
+/* The same where y >= 1. */
+PPS_LANE four four_exp2_apart(four x, four y) {
+    four root_x = four_exp(-x / 2), root_rest = four_exp((x - y) / 2);
+    return (four_decay_mean(x, root_x) -
+            root_x * root_x * four_decay_mean(y - x, root_rest)) /
+           y;
+}
+
 /* E2(t; a, b, c) of expdiff.h, rates in any order, none negative, t finite. */
 PPS_LANE four four_exp2(double t, four a, four b, four c) {
     four low = four_choose(a < b, a, b), high = four_choose(a < b, b, a);
     four middle = four_choose(c < low, low, four_choose(c > high, high, c));
     low = four_choose(c < low, c, low);
     high = four_choose(c > high, c, high);
-    four x = (middle - low) * t, y = (high - low) * t;
-    four scale = t * t * four_exp(-low * t);
-    /* sum over i of (-1)^i h_i / (i + 2)!, h_i = x^i + y h_(i-1) */
-    four power = four_of(1), h = power, series = four_of(0.5);
-    double factor = 0.5;
-    for (int i = 1; i < 19; i++) {
-        factor /= i + 2;
-        power = -x * power;
-        h = power - y * h;
-        series += h * factor;
+    four x = (middle - low) * t, y = (high - low) * t, part = {0};
+    four_int close = y < 1;
+    if (four_any(close)) {
+        part = four_exp2_series(x, y);
     }
-    four root_x = four_exp(-x / 2), root_rest = four_exp((x - y) / 2);
-    four apart = (four_decay_mean(x, root_x) -
-                  root_x * root_x * four_decay_mean(y - x, root_rest)) /
-                 y;
-    return scale * four_choose(y < 1, series, apart);
+    if (four_any(~close)) {
+        part = four_choose(close, part, four_exp2_apart(x, y));
+    }
+    return t * t * four_exp(-low * t) * part;
 }
 
 #endif

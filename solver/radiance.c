@@ -529,15 +529,16 @@ static double azimuth_rest(const field *s, size_t b) {
 }
 
 /* Back to the caller's order of indices. */
-static void write_out(const field *s, double *radiance) {
-    const pps_grid *at = s->at;
+static void write_out(const field *s, double *restrict radiance) {
+    size_t n_tau = s->at->n_tau, n_mu = s->at->n_mu, n_phi = s->at->n_phi;
+    size_t rays = s->rays, n_slots = s->n_slots;
+    const size_t *restrict slot = s->view->slot;
     for (size_t b = 0; b < s->n_beams; b++) {
-        const double *value = s->value + b * at->n_phi * s->rays;
-        for (size_t k = 0; k < at->n_tau; k++) {
-            for (size_t j = 0; j < at->n_mu; j++) {
-                size_t ray = k * s->n_slots + s->view->slot[j];
-                for (size_t i = 0; i < at->n_phi; i++) {
-                    *radiance++ = value[i * s->rays + ray];
+        for (size_t k = 0; k < n_tau; k++) {
+            const double *restrict here = s->value + b * n_phi * rays + k * n_slots;
+            for (size_t j = 0; j < n_mu; j++) {
+                for (size_t i = 0; i < n_phi; i++) {
+                    *radiance++ = here[i * rays + slot[j]];
                 }
             }
         }

@@ -37,14 +37,15 @@ PPS_LANE void mode_row(const pps_runs *runs, const pps_mode_here *m,
         four z = (c - m->k) * t, sum = (c + m->k) * t;
         four x = four_at(view->near_over + i) * (e - ect);
         four y = four_at(view->far_over + i) * (other * (1 - e * ect));
-        four_int close = four_within_one(z);
+        four_int close = four_within_one(z), both = sum < 1;
         if (four_any(close)) {
             four roots = root * four_at(root_row + i);
-            four near = four_at(view->near + i) * roots * four_sinh_over(z * z / 4);
-            four far =
-                four_at(view->far + i) * other * roots * four_sinh_over(sum * sum / 4);
-            x = four_choose(close, near, x);
-            y = four_choose(sum < 1, far, y);
+            x = four_choose(
+                close, four_at(view->near + i) * roots * four_sinh_over(z * z / 4), x);
+            if (four_any(both)) {
+                four mean = roots * four_sinh_over(sum * sum / 4);
+                y = four_choose(both, four_at(view->far + i) * other * mean, y);
+            }
         }
         four_to(same + i, x);
         four_to(opposite + i, y);
