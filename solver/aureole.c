@@ -33,7 +33,7 @@ bool pps_aureole_matters(const pps_dom *dom) {
 
 /* f^2 (2 D - D^2) = 2 f p - p^2 + ((1 - f) p')^2, squares by folding: p^2 is
  * Henyey-Greenstein of g^2, the last has these coefficients of P_l(x). */
-static void folded_moments(const pps_dom *dom, double *coefficient) {
+void pps_aureole_fold(const pps_dom *dom, double *coefficient) {
     for (int l = 0; l < dom->discrete.n_moments; l++) {
         double moments = (1 - dom->f) * dom->discrete.strength[l];
         coefficient[l] = moments * moments / ((2 * l + 1) * 4 * PI);
@@ -53,29 +53,32 @@ PPS_LANE four legendre_sum(int n_moments, const double *coefficient, four x) {
     return sum;
 }
 
-/* Henyey-Greenstein of g > 0 without its (1 - g^2)/(4 pi), at the scattering cosine x. */
-static inline double peak_at(double g, double x) {
-    double base = (1 - g) * (1 - g) + 2 * g * (1 - x);
-    return 1 / (base * sqrt(base));
+/* Scattering cosines, and 2 f p - p^2 there. */
+PPS_CLONES static void peak_sources(double f, double g, double mu0, double cosine,
+                                    size_t n, const double *restrict mu,
+                                    double *restrict x, double *restrict source) {
+    double sine0 = (1 - mu0) * (1 + mu0), g2 = g * g;
+    double once = 2 * f * (1 - g) * (1 + g) / (4 * PI);
+    double twice = (1 - g2) * (1 + g2) / (4 * PI);
+    for (size_t i = 0; i < n; i++) {
+        double sines = sqrt(sine0 * (1 - mu[i]) * (1 + mu[i]));
+        double here = mu0 * mu[i] + sines * cosine;
+        here = here > 1 ? 1 : here;
+        double base = (1 - g) * (1 - g) + 2 * g * (1 - here);
+        double base2 = (1 - g2) * (1 - g2) + 2 * g2 * (1 - here);
+        x[i] = here;
+        source[i] = once / (base * sqrt(base)) - twice / (base2 * sqrt(base2));
+    }
 }
 
-PPS_CLONES void pps_aureole_sources(const pps_dom *dom, double mu0, double cosine,
-                                    size_t n, const double *mu, double *coefficient,
-                                    double *source) {
-    double g = dom->slab.g, g2 = g * g, albedo = dom->slab.albedo;
-    double once = 2 * dom->f * (1 - g) * (1 + g) / (4 * PI);
-    double twice = (1 - g2) * (1 + g2) / (4 * PI);
-    folded_moments(dom, coefficient);
+PPS_CLONES void pps_aureole_sources(const pps_dom *dom, const double *coefficient,
+                                    double mu0, double cosine, size_t n,
+                                    const double *mu, double *x, double *source) {
+    double factor = -dom->slab.albedo * dom->slab.albedo;
+    peak_sources(dom->f, dom->slab.g, mu0, cosine, n, mu, x, source);
     for (size_t i = 0; i < n; i += FOUR) {
-        double x[FOUR], peaks[FOUR];
-        for (size_t l = 0; l < FOUR; l++) {
-            double m = mu[i + l];
-            double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - m) * (1 + m));
-            x[l] = fmin(1, mu0 * m + sines * cosine);
-            peaks[l] = once * peak_at(g, x[l]) - twice * peak_at(g2, x[l]);
-        }
-        four folded = legendre_sum(dom->discrete.n_moments, coefficient, four_at(x));
-        four_to(source + i, -albedo * albedo * (four_at(peaks) + folded));
+        four folded = legendre_sum(dom->discrete.n_moments, coefficient, four_at(x + i));
+        four_to(source + i, factor * (four_at(source + i) + folded));
     }
 }
 

@@ -47,7 +47,7 @@ typedef struct {
     double *beam;             /* n_beams x rays: the beam's ray integral */
     double *aureole;          /* n_tau x n_down: integrals of the beam in hand */
     double *folded;           /* n_moments, of the aureole */
-    double *source;           /* a row */
+    double *source, *angles;  /* a row each; angles: cosines of scattering */
     double *series;           /* PPS_LANES beams x PPS_SERIES_TERMS rows */
     double *term[2];          /* n_beams x rays: this order, the one before */
     double *value;            /* n_beams x n_phi x rays */
@@ -95,6 +95,7 @@ static size_t field_layout(field *s, double *memory) {
         {&s->aureole, n_tau * s->view->n_down},
         {&s->folded, (size_t)d->n_moments},
         {&s->source, row},
+        {&s->angles, row},
         {&s->series, PPS_LANES * PPS_SERIES_TERMS * row},
         {&s->term[0], s->n_beams * rays},
         {&s->term[1], s->n_beams * rays},
@@ -245,7 +246,8 @@ static void aureole_integrals(field *s, size_t b) {
 
 static void correct_aureole(field *s, double mu0, double cosine, double *value) {
     size_t n = s->view->n_down;
-    pps_aureole_sources(s->dom, mu0, cosine, n, s->view->mu, s->folded, s->source);
+    pps_aureole_sources(s->dom, s->folded, mu0, cosine, n, s->view->mu, s->angles,
+                        s->source);
     for (size_t k = 0; k < s->at->n_tau; k++) {
         pps_rays_add_product(n, s->source, s->aureole + k * n, value + k * s->n_slots);
     }
@@ -253,6 +255,9 @@ static void correct_aureole(field *s, double mu0, double cosine, double *value) 
 
 static void first_light(field *s) {
     bool aureole = pps_aureole_matters(s->dom);
+    if (aureole) {
+        pps_aureole_fold(s->dom, s->folded);
+    }
     const pps_beams *beams = &s->dom->beams;
     for (size_t i = 0; i < s->at->n_phi; i++) {
         s->angle[i] = remainder(s->at->phi[i], 360);
