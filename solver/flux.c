@@ -9,6 +9,7 @@
 #include "core/lanes.h"
 #include "core/series.h"
 #include "solver/dom.h"
+#include <ppscat/expdiff.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -138,22 +139,32 @@ PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
     }
 }
 
-/* The special modes, one by one. */
-static void sum_special(const beam_block *block, double tau, mode_sums *sum) {
+/* What the loops above leave of a special mode: of a resonant one p Theta and k p Theta,
+ * from exponentials that are known; ekt = e^(-k tau), eqt = e^(-q tau). */
+static void special_state(const pps_mode *mode, double tau, double ekt, double eqt,
+                          double *psi, double *phi) {
+    if (mode->kind == PPS_MODE_RESONANT) {
+        double theta = isinf(tau) ? 0 : pps_exp1_known(tau, mode->k, mode->q, ekt, eqt);
+        *psi = mode->p * theta;
+        *phi = mode->k * *psi;
+    } else {
+        pps_mode_state(mode, tau, psi, phi);
+    }
+}
+
+/* The special modes, one by one; e^(-k tau) of every mode, e^(-q tau) of the beams. */
+static void sum_special(const beam_block *block, double tau, const double *decay,
+                        const double *eqt, mode_sums *sum) {
     const pps_solution *s = &block->dom->order[0].solution;
     for (size_t i = 0; i < s->n_special; i++) {
         const pps_special *special = &s->special[i];
         if (special->beam < block->first || special->beam >= block->first + block->n) {
             continue;
         }
-        pps_mode mode = special->mode;
-        if (mode.kind == PPS_MODE_RESONANT) { /* the rest of it is summed already */
-            mode.c1 = mode.c2 = mode.r = 0;
-        }
         mode_weights of = weights_of(&block->dom->order[0], (size_t)special->j);
         size_t l = special->beam - block->first;
         double psi, phi;
-        pps_mode_state(&mode, tau, &psi, &phi);
+        special_state(&special->mode, tau, decay[special->j], eqt[l], &psi, &phi);
         sum->even[l] += of.even * psi;
         sum->odd[l] += of.odd * phi;
         sum->mean[l] += of.mean * psi;
@@ -356,7 +367,7 @@ static void block_fluxes(const beam_block *block, size_t n_tau, const double *ta
         decays_at(&dom->order[0], scaled[k], w - scaled[k], decay);
         sum_exponentials(&dom->order[0], dom->beams.padded, block->first, block->n,
                          decay, beams.scaled + here, &sum[k]);
-        sum_special(block, scaled[k], &sum[k]);
+        sum_special(block, scaled[k], decay, beams.scaled + here, &sum[k]);
         for (size_t l = 0; l < block->n; l++) {
             flux[l * stride + k] = flux_of_beam(block, l, tau[k], &sum[k], &beams,
                                                 here + l, thin_scale[l]);
