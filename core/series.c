@@ -3,6 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/series.h"
 
+#include <assert.h>
+#include <stdbool.h>
+
 #include "core/lanes.h"
 
 /* Half a block: the state, and the beam as it goes on. */
@@ -17,40 +20,54 @@ PPS_LANE half_block half_at(const pps_series *series, size_t i) {
                         four_at(series->alpha + i), four_at(series->beta + i)};
 }
 
-/* One term further. */
-PPS_LANE void expand(half_block *x, double h, double k2, double *a, double *b) {
-    four psi_next = h * (x->beta * x->e - x->phi);
+/* One term further. What waits for the term before, psi and phi, is a product and a
+ * difference away from it. */
+PPS_LANE void expand(half_block *x, double h, double hk2, double *a, double *b) {
+    four he = h * x->e;
+    four psi_next = x->beta * he - h * x->phi;
     four_to(a, x->psi);
     four_to(b, x->phi);
-    x->phi = h * (x->alpha * x->e - k2 * x->psi);
+    x->phi = x->alpha * he - hk2 * x->psi;
     x->psi = psi_next;
-    x->e = -h * (x->e * x->q);
+    x->e = -(x->q * he);
 }
 
 PPS_CLONES void pps_series_expand(const pps_series *series, double step, double k,
                                   double *restrict a, double *restrict b) {
+    static const double over[] = {
+        1.0,      1.0 / 2,  1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,  1.0 / 7,
+        1.0 / 8,  1.0 / 9,  1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14,
+        1.0 / 15, 1.0 / 16, 1.0 / 17, 1.0 / 18, 1.0 / 19, 1.0 / 20, 1.0 / 21,
+        1.0 / 22, 1.0 / 23, 1.0 / 24, 1.0 / 25, 1.0 / 26};
+    static_assert(sizeof over == PPS_SERIES_TERMS * sizeof *over, "one a term");
     half_block left = half_at(series, 0), right = half_at(series, FOUR);
+    double k2 = k * k;
+    bool whole = series->n > FOUR;
     for (size_t d = 0; d < PPS_SERIES_TERMS; d++, a += PPS_LANES, b += PPS_LANES) {
-        double h = step * (1.0 / (double)(d + 1));
-        expand(&left, h, k * k, a, b);
-        expand(&right, h, k * k, a + FOUR, b + FOUR);
+        double h = step * over[d];
+        expand(&left, h, h * k2, a, b);
+        if (whole) {
+            expand(&right, h, h * k2, a + FOUR, b + FOUR);
+        }
     }
 }
 
-PPS_CLONES void pps_series_value(const double *a, const double *b, double u,
-                                 double *psi, double *phi) {
-    four psi_left = {0}, psi_right = {0}, phi_left = {0}, phi_right = {0};
-    for (size_t d = u == 0 ? 1 : PPS_SERIES_TERMS; d-- > 0;) {
-        const double *ad = a + d * PPS_LANES, *bd = b + d * PPS_LANES;
-        psi_left = psi_left * u + four_at(ad);
-        psi_right = psi_right * u + four_at(ad + FOUR);
-        phi_left = phi_left * u + four_at(bd);
-        phi_right = phi_right * u + four_at(bd + FOUR);
+/* Even and odd powers apart: half as long to wait. */
+PPS_LANE four horner(const double *a, double u) {
+    four even = {0}, odd = {0};
+    for (size_t d = PPS_SERIES_TERMS; d > 0; d -= 2) {
+        odd = odd * (u * u) + four_at(a + (d - 1) * PPS_LANES);
+        even = even * (u * u) + four_at(a + (d - 2) * PPS_LANES);
     }
-    four_to(psi, psi_left);
-    four_to(psi + FOUR, psi_right);
-    four_to(phi, phi_left);
-    four_to(phi + FOUR, phi_right);
+    return even + u * odd;
+}
+
+PPS_CLONES void pps_series_value(size_t n, const double *a, const double *b, double u,
+                                 double *psi, double *phi) {
+    for (size_t at = 0; at < n; at += FOUR) {
+        four_to(psi + at, u == 0 ? four_at(a + at) : horner(a + at, u));
+        four_to(phi + at, u == 0 ? four_at(b + at) : horner(b + at, u));
+    }
 }
 
 /* m_d(z) = z int_0^1 v^d e^(-z (1 - v)) dv obeys m_d = 1 - (d/z) m_(d-1). Upwards that

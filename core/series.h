@@ -19,19 +19,23 @@
 
 enum { PPS_SERIES_TERMS = 26 };
 
-/* What a series is made from, one number a beam of a block (PPS_LANES of them). */
+/* What a series is made from, one number a beam of a block (PPS_LANES of them), of which
+ * the first n are wanted. */
 typedef struct pps_series {
+    size_t n;
     const double *q, *beam; /* beam: e^(-q tau) at the edge */
     const double *alpha, *beta;
     const double *psi, *phi; /* at the edge */
 } pps_series;
 
-/* a[d * PPS_LANES + lane] and b likewise. step = w from the top, -w from the bottom. */
+/* a[d * PPS_LANES + lane] and b likewise, of the n beams. step = w from the top, -w from
+ * the bottom. */
 void pps_series_expand(const pps_series *series, double step, double k,
                        double *restrict a, double *restrict b);
 
-/* psi = sum over d of a_d u^d and phi likewise, a block of beams. */
-void pps_series_value(const double *a, const double *b, double u, double *psi,
+/* psi = sum over d of a_d u^d and phi likewise, of the first n beams of a block; numbers of
+ * no meaning for the others. */
+void pps_series_value(size_t n, const double *a, const double *b, double u, double *psi,
                       double *phi);
 
 /* moment[d * padded + i] = c int_0^t (s/w)^d e^(-c (t - s)) ds, d < PPS_SERIES_TERMS, for

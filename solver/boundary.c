@@ -199,15 +199,17 @@ static void thin_parts(pps_order *order, int j, const pps_beams *beams, double w
         one[l] = 1;
     }
     for (size_t first = 0; first < beams->n; first += PPS_LANES) {
-        pps_series series = {.q = beams->q + first,
+        size_t left = beams->n - first;
+        pps_series series = {.n = left < PPS_LANES ? left : PPS_LANES,
+                             .q = beams->q + first,
                              .beam = one,
                              .alpha = order->alpha + row + first,
                              .beta = order->beta + row + first,
                              .psi = zero,
                              .phi = zero};
         pps_series_expand(&series, w, order->k[j], a, b);
-        pps_series_value(a, b, 1, psi, phi);
-        for (size_t i = first; i < beams->n && i < first + PPS_LANES; i++) {
+        pps_series_value(series.n, a, b, 1, psi, phi);
+        for (size_t i = first; i < first + series.n; i++) {
             if (is_thin(w, beams->q[i])) {
                 s->p[row + i] = s->r[row + i] = 0;
                 edge->psi[i] = edge->phi[i] = 0;

@@ -56,9 +56,9 @@ PPS_LANE void add_mode(const mode_weights *of, four psi, four phi, four_sums *su
     sum->size += four_abs(even) + four_abs(odd);
 }
 
-PPS_CLONES static void add_values(const mode_weights *of, const double *psi,
+PPS_CLONES static void add_values(size_t n, const mode_weights *of, const double *psi,
                                   const double *phi, mode_sums *sum) {
-    for (size_t at = 0; at < PPS_LANES; at += FOUR) {
+    for (size_t at = 0; at < n; at += FOUR) {
         four_sums part = sums_at(sum, at);
         add_mode(of, four_at(psi + at), four_at(phi + at), &part);
         sums_to(sum, at, &part);
@@ -89,7 +89,8 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
         mode_weights of = weights_of(order, j);
         size_t at = j * beams->padded + block->first;
         for (int side = 0; side < 2; side++) {
-            pps_series series = {.q = beams->q + block->first,
+            pps_series series = {.n = block->n,
+                                 .q = beams->q + block->first,
                                  .beam = side ? beams->decay + block->first : one,
                                  .alpha = s->source_a + at,
                                  .beta = s->source_b + at,
@@ -101,8 +102,8 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
             double psi[PPS_LANES], phi[PPS_LANES];
             int side = tau[k] > w / 2;
             double u = (side ? w - tau[k] : tau[k]) / w;
-            pps_series_value(a[side], b[side], u, psi, phi);
-            add_values(&of, psi, phi, &sum[k]);
+            pps_series_value(block->n, a[side], b[side], u, psi, phi);
+            add_values(block->n, &of, psi, phi, &sum[k]);
         }
     }
 }

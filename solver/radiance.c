@@ -373,7 +373,8 @@ static void add_series_mode(field *s, const pps_order *order, size_t j, size_t b
     }
     for (int down = 0; down < 2; down++) {
         size_t first = first_slot(s, down), row = j * s->n_slots + first;
-        pps_series series = {.q = beams->q + block,
+        pps_series series = {.n = n_block,
+                             .q = beams->q + block,
                              .beam = down ? one : beams->decay + block,
                              .alpha = solution->source_a + at,
                              .beta = solution->source_b + at,
