@@ -108,14 +108,30 @@ static void sum_series(const beam_block *block, size_t n_tau, const double *tau,
     }
 }
 
-/* e^(-k tau) of every mode, then e^(-k (w - tau)) of every mode, at one depth. */
-static void decays_at(const pps_order *order, double tau, double rest, double *decay) {
+/* Depths of one call, scaled, and what all beams share there: e^(-k tau) of every mode,
+ * then e^(-k (w - tau)) of every mode, a row a depth. */
+typedef struct {
+    size_t n;
+    double tau[DEPTHS], scaled[DEPTHS];
+    double decay[DEPTHS * PPS_STREAMS_MAX];
+} depths;
+
+static void depths_at(const pps_dom *dom, size_t n_tau, const double *tau,
+                      depths *at) {
+    const pps_order *order = &dom->order[0];
     size_t n = (size_t)order->n;
-    for (size_t j = 0; j < n; j++) {
-        decay[j] = -order->k[j] * tau;
-        decay[n + j] = isinf(rest) ? -HUGE_VAL : -order->k[j] * rest;
+    double w = pps_dom_scaled_thickness(dom), *exponent = at->decay;
+    at->n = n_tau;
+    for (size_t k = 0; k < n_tau; k++, exponent += 2 * n) {
+        at->tau[k] = tau[k];
+        at->scaled[k] = tau[k] * dom->stretch;
+        for (size_t j = 0; j < n; j++) {
+            double k_j = order->k[j];
+            exponent[j] = -k_j * at->scaled[k];
+            exponent[n + j] = isinf(w) ? -HUGE_VAL : -k_j * (w - at->scaled[k]);
+        }
     }
-    pps_exp_array(2 * n, decay, decay);
+    pps_exp_array(n_tau * 2 * n, at->decay, at->decay);
 }
 
 /* The exponentials, homogeneous of modes k w >= 1 and particular of all. */
@@ -306,20 +322,19 @@ PPS_CLONES static void beams_at(size_t n, const double *rates, size_t n_tau,
     size_t all = n * n_tau;
     for (size_t k = 0; k < n_tau; k++) {
         for (size_t l = 0; l < n; l++) { /* their exponents */
-            beams->direct[k * n + l] = -rates[l] * tau[k];
             beams->scaled[k * n + l] = -rates[l] * scaled[k];
             beams->peak[k * n + l] = rates[l] * (tau[k] - scaled[k]);
         }
     }
     for (size_t l = 0; l < FOUR; l++) {
-        beams->direct[all + l] = beams->scaled[all + l] = beams->peak[all + l] = 0;
+        beams->scaled[all + l] = beams->peak[all + l] = 0;
     }
     for (size_t at = 0; at < all; at += FOUR) {
-        four here = four_exp(four_at(beams->scaled + at)),
-             z = four_at(beams->peak + at);
-        four_to(beams->direct + at, four_exp(four_at(beams->direct + at)));
+        four here = four_exp(four_at(beams->scaled + at));
+        four z = four_at(beams->peak + at), root = four_exp(-z / 2);
+        four_to(beams->direct + at, here * (root * root));
         four_to(beams->scaled + at, here);
-        four_to(beams->peak + at, here * (z * four_decay_mean(z, four_exp(-z / 2))));
+        four_to(beams->peak + at, here * (z * four_decay_mean(z, root)));
     }
 }
 
@@ -347,42 +362,37 @@ static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
     return flux;
 }
 
-/* Up to DEPTHS depths; flux[l * stride + k]. */
-static void block_fluxes(const beam_block *block, size_t n_tau, const double *tau,
+/* flux[l * stride + k]. */
+static void block_fluxes(const beam_block *block, const depths *at,
                          const double *thin_scale, size_t stride, pps_flux *flux) {
     const pps_dom *dom = block->dom;
-    double w = pps_dom_scaled_thickness(dom), scaled[DEPTHS];
     mode_sums sum[DEPTHS];
-    double decay[PPS_STREAMS_MAX];
     beams_here beams;
-    memset(sum, 0, n_tau * sizeof *sum);
-    for (size_t k = 0; k < n_tau; k++) {
-        scaled[k] = tau[k] * dom->stretch;
-    }
+    memset(sum, 0, at->n * sizeof *sum);
     if (dom->order[0].n_series > 0) {
-        sum_series(block, n_tau, scaled, sum);
+        sum_series(block, at->n, at->scaled, sum);
     }
-    beams_at(block->n, dom->beams.q + block->first, n_tau, tau, scaled, &beams);
-    for (size_t k = 0; k < n_tau; k++) {
+    beams_at(block->n, dom->beams.q + block->first, at->n, at->tau, at->scaled, &beams);
+    for (size_t k = 0; k < at->n; k++) {
         size_t here = k * block->n;
-        decays_at(&dom->order[0], scaled[k], w - scaled[k], decay);
+        const double *decay = at->decay + k * 2 * (size_t)dom->order[0].n;
         sum_exponentials(&dom->order[0], dom->beams.padded, block->first, block->n,
                          decay, beams.scaled + here, &sum[k]);
-        sum_special(block, scaled[k], decay, beams.scaled + here, &sum[k]);
+        sum_special(block, at->scaled[k], decay, beams.scaled + here, &sum[k]);
         for (size_t l = 0; l < block->n; l++) {
-            flux[l * stride + k] = flux_of_beam(block, l, tau[k], &sum[k], &beams,
+            flux[l * stride + k] = flux_of_beam(block, l, at->tau[k], &sum[k], &beams,
                                                 here + l, thin_scale[l]);
         }
     }
 }
 
-pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
-                        pps_flux *flux) {
+/* All beams at up to DEPTHS depths. */
+static void fluxes_at(const pps_dom *dom, size_t n_tau, const double *tau,
+                      size_t stride, pps_flux *flux) {
     const pps_beams *beams = &dom->beams;
-    if (beams->n == 0 || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
-        return PPS_ERR_ARGUMENT;
-    }
     bool thin = dom->corrected && !beams->sky && dom->slab.thickness < THIN;
+    depths at;
+    depths_at(dom, n_tau, tau, &at);
     for (size_t b = 0; b < beams->n; b += PPS_LANES) {
         size_t left = beams->n - b;
         beam_block block = {dom, b, left < PPS_LANES ? left : PPS_LANES};
@@ -390,10 +400,17 @@ pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
         for (size_t l = 0; l < block.n && thin; l++) {
             scale[l] = multiple_scale(dom, beams->mu0[b + l]);
         }
-        for (size_t k = 0; k < n; k += DEPTHS) {
-            block_fluxes(&block, n - k < DEPTHS ? n - k : DEPTHS, tau + k, scale, n,
-                         flux + b * n + k);
-        }
+        block_fluxes(&block, &at, scale, stride, flux + b * stride);
+    }
+}
+
+pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
+                        pps_flux *flux) {
+    if (dom->beams.n == 0 || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
+        return PPS_ERR_ARGUMENT;
+    }
+    for (size_t k = 0; k < n; k += DEPTHS) {
+        fluxes_at(dom, n - k < DEPTHS ? n - k : DEPTHS, tau + k, n, flux + k);
     }
     return PPS_OK;
 }
