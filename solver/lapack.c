@@ -25,29 +25,32 @@ static void clear_upper(int n, double *a) {
 }
 
 /* Calls of LAPACK and BLAS cost as much as the work itself at a few unknowns. */
-enum { SMALL = 16, SMALL_SOLVE = 32 };
+enum { SMALL_PRODUCT = 16, SMALL = 32 };
 
+/* Column after column, each taken off all later ones at once: nothing waits but for the
+ * root. */
 PPS_CLONES static bool small_cholesky(int n, double *a) {
     double l[SMALL * SMALL]; /* columns padded, so that blocks stay inside */
+    int rows = (int)pps_padded((size_t)n);
     for (int j = 0; j < n; j++) {
-        memset(l + j * SMALL, 0, SMALL * sizeof *l);
-        memcpy(l + j * SMALL + j, a + j + j * n, (size_t)(n - j) * sizeof *l);
+        memset(l + j * rows, 0, (size_t)rows * sizeof *l);
+        memcpy(l + j * rows + j, a + j + j * n, (size_t)(n - j) * sizeof *l);
     }
     for (int j = 0; j < n; j++) {
-        double *column = l + j * SMALL;
-        for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
-            four sum = four_at(column + i);
-            for (int k = 0; k < j; k++) {
-                sum -= l[j + k * SMALL] * four_at(l + i + k * SMALL);
-            }
-            four_to(column + i, sum);
-        }
+        double *column = l + j * rows;
         if (!(column[j] > 0)) {
             return false;
         }
         double root = sqrt(column[j]), over = root * (1 / column[j]);
         for (int i = j / FOUR * FOUR; i < n; i += FOUR) {
             four_to(column + i, four_at(column + i) * over);
+        }
+        for (int k = j + 1; k < n; k++) {
+            double *later = l + k * rows;
+            for (int i = k / FOUR * FOUR; i < n; i += FOUR) {
+                four_to(later + i,
+                        four_at(later + i) - column[k] * four_at(column + i));
+            }
         }
         memset(a + j * n, 0, (size_t)j * sizeof *a);
         memcpy(a + j + j * n, column + j, (size_t)(n - j) * sizeof *a);
@@ -91,29 +94,48 @@ static void solve_column_transposed(int n, const double *restrict lower,
     }
 }
 
-/* B <- L^-T B, FOUR columns at a time. */
+/* B <- L^-T B, `fours` FOURs of columns at a time: as many sums that need not wait for
+ * each other. */
+enum { MOST_FOURS = 4, MOST_COLUMNS = MOST_FOURS * FOUR };
+
+PPS_LANE void solve_columns_transposed(size_t fours, int n, const double *lower,
+                                       int columns, double *b) {
+    double row[SMALL][MOST_COLUMNS];
+    for (int i = 0; i < n; i++) {
+        for (int l = 0; l < (int)fours * FOUR; l++) {
+            row[i][l] = l < columns ? b[i + l * n] : 0;
+        }
+    }
+    for (int j = n - 1; j >= 0; j--) {
+        four sum[MOST_FOURS];
+        for (size_t f = 0; f < fours; f++) {
+            sum[f] = four_at(row[j] + f * FOUR);
+        }
+        for (int i = j + 1; i < n; i++) {
+            for (size_t f = 0; f < fours; f++) {
+                sum[f] -= lower[i + j * n] * four_at(row[i] + f * FOUR);
+            }
+        }
+        for (size_t f = 0; f < fours; f++) {
+            four_to(row[j] + f * FOUR, sum[f] * (1 / lower[j + j * n]));
+        }
+    }
+    for (int l = 0; l < columns; l++) {
+        for (int i = 0; i < n; i++) {
+            b[i + l * n] = row[i][l];
+        }
+    }
+}
+
 PPS_CLONES static void small_solve_transposed(int n, const double *lower, int n_rhs,
                                               double *b) {
-    for (int first = 0; first < n_rhs; first += FOUR) {
-        int columns = n_rhs - first < FOUR ? n_rhs - first : FOUR;
-        double *at = b + first * n, row[SMALL_SOLVE][FOUR] = {{0}};
-        for (int l = 0; l < columns; l++) {
-            for (int i = 0; i < n; i++) {
-                row[i][l] = at[i + l * n];
-            }
-        }
-        for (int j = n - 1; j >= 0; j--) {
-            four sum = four_at(row[j]);
-            for (int i = j + 1; i < n; i++) {
-                sum -= lower[i + j * n] * four_at(row[i]);
-            }
-            four_to(row[j], sum * (1 / lower[j + j * n]));
-        }
-        for (int l = 0; l < columns; l++) {
-            for (int i = 0; i < n; i++) {
-                at[i + l * n] = row[i][l];
-            }
-        }
+    int at = 0;
+    for (; at + MOST_COLUMNS <= n_rhs; at += MOST_COLUMNS) {
+        solve_columns_transposed(MOST_FOURS, n, lower, MOST_COLUMNS, b + at * n);
+    }
+    for (; at < n_rhs; at += PPS_LANES) {
+        int columns = n_rhs - at < PPS_LANES ? n_rhs - at : PPS_LANES;
+        solve_columns_transposed(2, n, lower, columns, b + at * n);
     }
 }
 
@@ -126,7 +148,7 @@ void pps_lower_solve(int n, const double *lower, bool transposed, double *b) {
 }
 
 void pps_lower_solve_transposed(int n, const double *lower, int n_rhs, double *b) {
-    if (n <= SMALL_SOLVE) {
+    if (n <= SMALL) {
         small_solve_transposed(n, lower, n_rhs, b);
         return;
     }
@@ -150,10 +172,10 @@ PPS_LANE void copy_padded(bool transposed, int n, int r, const double *a, int ld
     int across = transposed ? lda : 1, down = transposed ? 1 : lda;
     for (int k = 0; k < r; k++) {
         for (int i = 0; i < n; i++) {
-            copy[i + k * SMALL] = a[i * across + k * down];
+            copy[i + k * SMALL_PRODUCT] = a[i * across + k * down];
         }
         for (int i = n; i % PPS_LANES != 0; i++) {
-            copy[i + k * SMALL] = 0;
+            copy[i + k * SMALL_PRODUCT] = 0;
         }
     }
 }
@@ -161,12 +183,12 @@ PPS_LANE void copy_padded(bool transposed, int n, int r, const double *a, int ld
 PPS_CLONES static void small_multiply(bool transposed, int n, int cols, int r,
                                       const double *a, int lda, const double *b,
                                       int ldb, double *c, int ldc) {
-    double copy[SMALL * SMALL], spare[SMALL];
+    double copy[SMALL_PRODUCT * SMALL_PRODUCT], spare[SMALL_PRODUCT];
     bool whole = n % PPS_LANES == 0; /* no block sticks out */
     if (transposed || !whole) {
         copy_padded(transposed, n, r, a, lda, copy);
         a = copy;
-        lda = SMALL;
+        lda = SMALL_PRODUCT;
     }
     for (int j = 0; j < cols; j++) {
         double *column = whole ? c + j * ldc : spare;
@@ -187,7 +209,7 @@ PPS_CLONES static void small_multiply(bool transposed, int n, int cols, int r,
 
 void pps_multiply(bool transposed, int n, int cols, int r, const double *a, int lda,
                   const double *b, int ldb, double *c, int ldc) {
-    if (n <= SMALL && r <= SMALL) {
+    if (n <= SMALL_PRODUCT && r <= SMALL_PRODUCT) {
         small_multiply(transposed, n, cols, r, a, lda, b, ldb, c, ldc);
         return;
     }
@@ -196,8 +218,8 @@ void pps_multiply(bool transposed, int n, int cols, int r, const double *a, int 
 }
 
 void pps_lower_times(int n, const double *lower, int n_rhs, double *b) {
-    if (n <= SMALL && n_rhs <= SMALL) {
-        double copy[SMALL * SMALL];
+    if (n <= SMALL_PRODUCT && n_rhs <= SMALL_PRODUCT) {
+        double copy[SMALL_PRODUCT * SMALL_PRODUCT];
         memcpy(copy, b, (size_t)(n * n_rhs) * sizeof *b);
         small_multiply(false, n, n_rhs, n, lower, n, copy, n, b, n);
         return;

@@ -87,46 +87,50 @@ static inline void subtract(int n, double factor, const double *restrict x,
     }
 }
 
-/* Rows i to i + rows - 1 of column j of 1 - sum of factor_r p_r p_r^T; p_r is column
- * 2 r of p. */
-PPS_LANE void scattering_rows(size_t n, size_t n_terms, const double *factor,
-                              const double *p, size_t i, size_t j, size_t rows,
+enum { MOST_FOURS = 4 };
+
+/* `fours` FOURs of rows from i on, of column j of 1 - sum of factor_r p_r p_r^T; p_r is
+ * column 2 r of p. Rows past the end are worked out from what lies there, and dropped. */
+PPS_LANE void scattering_rows(size_t fours, size_t n, size_t n_terms,
+                              const double *factor, const double *p, size_t i, size_t j,
                               double *a) {
-    double sum[FOUR] = {0};
-    if (rows == FOUR) {
-        four total = {0};
-        for (size_t r = 0; r < n_terms; r++) {
-            total += factor[r] * four_at(p + 2 * r * n + i);
-        }
-        four_to(sum, total);
-    } else {
-        for (size_t r = 0; r < n_terms; r++) {
-            for (size_t l = 0; l < rows; l++) {
-                sum[l] += factor[r] * p[2 * r * n + i + l];
-            }
+    four sum[MOST_FOURS] = {{0}};
+    double rows[MOST_FOURS * FOUR];
+    for (size_t r = 0; r < n_terms; r++) {
+        for (size_t f = 0; f < fours; f++) {
+            sum[f] += factor[r] * four_at(p + 2 * r * n + i + f * FOUR);
         }
     }
-    for (size_t l = 0; l < rows; l++) {
-        a[i + l + j * n] = (i + l == j) - sum[l];
+    for (size_t f = 0; f < fours; f++) {
+        four_to(rows + f * FOUR, -sum[f]);
     }
+    size_t left = n - i < fours * FOUR ? n - i : fours * FOUR;
+    memcpy(a + i + j * n, rows, left * sizeof *a);
 }
 
 /* A <- 1 - albedo sum over l = first, first + 2, .. of strength_l p_l p_l^T, lower
- * triangle (and a little more), from row and column `skip` on. */
+ * triangle (and a little more), from row and column `skip` on. p is followed by FOUR
+ * numbers that may be read. */
 PPS_CLONES static void one_minus_scattering(const pps_discrete *d, int m, int first,
                                             int skip, const double *p, double *a) {
     size_t n = (size_t)d->n;
     const double *pl = p + (size_t)(first - m) * n;
     double factor[PPS_STREAMS_MAX / 2];
     for (size_t j = (size_t)skip; j < n; j++) {
-        size_t n_terms = 0;
+        size_t n_terms = 0, i = j / FOUR * FOUR;
         for (int l = first; l < d->n_moments; l += 2, n_terms++) {
             factor[n_terms] = d->albedo * d->strength[l] * pl[2 * n_terms * n + j];
         }
-        for (size_t i = j / FOUR * FOUR; i < n; i += FOUR) {
-            size_t rows = n - i < FOUR ? n - i : FOUR;
-            scattering_rows(n, n_terms, factor, pl, i, j, rows, a);
+        for (; i + 4 * FOUR <= n; i += 4 * FOUR) {
+            scattering_rows(4, n, n_terms, factor, pl, i, j, a);
         }
+        for (; i + FOUR < n; i += 2 * FOUR) {
+            scattering_rows(2, n, n_terms, factor, pl, i, j, a);
+        }
+        if (i < n) {
+            scattering_rows(1, n, n_terms, factor, pl, i, j, a);
+        }
+        a[j + j * n] += 1;
     }
 }
 
