@@ -77,7 +77,8 @@ PPS_CLONES void pps_aureole_sources(const pps_dom *dom, const double *coefficien
     double factor = -dom->slab.albedo * dom->slab.albedo;
     peak_sources(dom->f, dom->slab.g, mu0, cosine, n, mu, x, source);
     for (size_t i = 0; i < n; i += FOUR) {
-        four folded = legendre_sum(dom->discrete.n_moments, coefficient, four_at(x + i));
+        four folded =
+            legendre_sum(dom->discrete.n_moments, coefficient, four_at(x + i));
         four_to(source + i, factor * (four_at(source + i) + folded));
     }
 }

@@ -116,8 +116,7 @@ typedef struct {
     double decay[DEPTHS * PPS_STREAMS_MAX];
 } depths;
 
-static void depths_at(const pps_dom *dom, size_t n_tau, const double *tau,
-                      depths *at) {
+static void depths_at(const pps_dom *dom, size_t n_tau, const double *tau, depths *at) {
     const pps_order *order = &dom->order[0];
     size_t n = (size_t)order->n;
     double w = pps_dom_scaled_thickness(dom), *exponent = at->decay;

@@ -25,8 +25,7 @@ static void expand(pps_hemispheric *h, const pps_mode *mode) {
             lane[i][l] = value[i];
         }
     }
-    pps_series series = {1,       lane[0], lane[1], lane[2],
-                         lane[3], lane[4], lane[5]};
+    pps_series series = {1, lane[0], lane[1], lane[2], lane[3], lane[4], lane[5]};
     pps_series_expand(&series, mode->w, mode->k, a, b);
     for (int d = 0; d < PPS_SERIES_TERMS; d++) {
         h->series[d] = 2 * a[d * PPS_LANES];

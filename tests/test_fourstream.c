@@ -58,7 +58,7 @@ static double solver_like(const pps_fourstream *four, double tau, double mu,
 static double aureole(const pps_dom *dom, double mu0, double tau, double mu,
                       double phi) {
     double same[PPS_LANES], c[PPS_LANES], source[PPS_LANES], integral[PPS_LANES];
-    double coefficient[8];
+    double coefficient[8], cosine[PPS_LANES];
     if (mu < 0 || !pps_aureole_matters(dom)) {
         return 0;
     }
@@ -67,8 +67,9 @@ static double aureole(const pps_dom *dom, double mu0, double tau, double mu,
         c[i] = 1 / mu;
     }
     assert_in_range(dom->discrete.n_moments, 1, 8);
-    pps_aureole_sources(dom, mu0, cos(phi * (PI / 180)), PPS_LANES, same, coefficient,
-                        source);
+    pps_aureole_fold(dom, coefficient);
+    pps_aureole_sources(dom, coefficient, mu0, cos(phi * (PI / 180)), PPS_LANES, same,
+                        cosine, source);
     pps_aureole_rays(dom, mu0, tau, PPS_LANES, c, integral);
     return source[0] * integral[0];
 }
