@@ -7,7 +7,6 @@
 
 #include "core/lanes.h"
 #include "core/series.h"
-#include <ppscat/expdiff.h>
 
 PPS_CLONES void pps_mode_view_fill(size_t n, double signed_k, const double *restrict c,
                                    const double *restrict ge, const double *restrict go,
@@ -105,15 +104,9 @@ PPS_CLONES void pps_rays_add_product(size_t n, const double *restrict x,
 
 /* ---- resonance ---- */
 
-/* A resonant mode at a depth: Theta there and, upwards, on to the bottom; e^(-k t) and its
- * root, t to the bottom; e^(-q tau). */
-typedef struct {
-    double k, q, p, theta, theta_on, ekt, root, eqt;
-} resonance;
-
 /* Down: E2(t; k, q, c) = (E1(t; k, q) - E1(t; q, c)) / (c - k) where c is apart from k;
  * `beam` is c E1(t; q, c). */
-PPS_CLONES static void theta_down(const pps_run *run, const resonance *r,
+PPS_CLONES static void theta_down(const pps_run *run, const pps_resonance *r,
                                   const double *ge, const double *go,
                                   const double *beam, double *sum) {
     for (size_t i = 0; i < run->n; i += FOUR) {
@@ -132,12 +125,12 @@ PPS_CLONES static void theta_down(const pps_run *run, const resonance *r,
 /* Up, t to the bottom and tau to the top: what Theta does on from here,
  * E1(tau; k, q) E1(t; 0, k + c) + e^(-q tau) E2(t; 0, k + c, q + c), the last as above with
  * E1(t; k + c, q + c) = e^(-c t) E1(t; k, q). */
-PPS_CLONES static void theta_up(const pps_run *run, const resonance *r,
+PPS_CLONES static void theta_up(const pps_run *run, const pps_resonance *r,
                                 const double *ge, const double *go, double *sum) {
     four zero = four_of(0), one = four_of(1);
     for (size_t i = 0; i < run->n; i += FOUR) {
         four c = four_at(run->c + i), ect = four_at(run->ect + i);
-        four fall = four_exp1(run->t, zero, r->k + c, one, r->ekt * ect, one,
+        four fall = four_exp1(run->t, zero, r->k + c, one, r->ekx * ect, one,
                               r->root * four_at(run->root + i));
         four part = (fall - ect * r->theta_on) / (r->q + c);
         four_int close = (r->k + c) * run->t < 1;
@@ -151,19 +144,12 @@ PPS_CLONES static void theta_up(const pps_run *run, const resonance *r,
     }
 }
 
-void pps_theta_rays(const pps_run *run, double k, double q, double p, const double *ge,
+void pps_theta_rays(const pps_run *run, const pps_resonance *mode, const double *ge,
                     const double *go, const double *beam, double *sum) {
-    resonance r = {.k = k, .q = q, .p = p};
     if (run->down) {
-        r.theta = pps_exp1(run->t, k, q);
-        theta_down(run, &r, ge, go, beam, sum);
+        theta_down(run, mode, ge, go, beam, sum);
     } else {
-        r.theta = pps_exp1(run->rest, k, q);
-        r.theta_on = pps_exp1(run->t, k, q);
-        r.ekt = exp(-k * run->t);
-        r.root = exp(-k * run->t / 2);
-        r.eqt = exp(-q * run->rest);
-        theta_up(run, &r, ge, go, sum);
+        theta_up(run, mode, ge, go, sum);
     }
 }
 

@@ -22,7 +22,7 @@
 typedef struct pps_run {
     size_t n; /* directions, padded */
     bool down;
-    double t, rest; /* rest: to the other edge */
+    double t;
     const double *c, *ect, *root;
 } pps_run;
 
@@ -68,9 +68,15 @@ void pps_rays_sum(size_t n, size_t n_modes, const double *x, const double *y,
 /* sum[i] += x[i] y[i]. */
 void pps_rays_add_product(size_t n, const double *x, const double *y, double *sum);
 
-/* sum[i] += (ge + k go) p times the ray integral of Theta(.; k, q); beam: that of
- * e^(-q tau), from pps_beam_rays. */
-void pps_theta_rays(const pps_run *run, double k, double q, double p, const double *ge,
+/* A resonant mode at a depth: psi = p Theta, Theta = E1(tau; k, q); theta_on = E1(x; k, q)
+ * from there on to the bottom, x = w - tau; ekx = e^(-k x), its root; eqt = e^(-q tau). */
+typedef struct pps_resonance {
+    double k, q, p, theta, theta_on, ekx, root, eqt;
+} pps_resonance;
+
+/* sum[i] += (ge + k go) p times the ray integral of Theta; beam: that of e^(-q tau), from
+ * pps_beam_rays. */
+void pps_theta_rays(const pps_run *run, const pps_resonance *mode, const double *ge,
                     const double *go, const double *beam, double *sum);
 
 /* source[d * stride + i] += ge[i] a[d * PPS_LANES] + go[i] b[d * PPS_LANES] for every term

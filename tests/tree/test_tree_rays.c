@@ -279,8 +279,10 @@ static void a_repeating_scene_is_many_copies(void **state) {
         if (hit) {
             assert_close(here.distance, there.distance, 1e-5, 1e-5);
             assert_int_equal(here.triangle, there.triangle);
-            for (int k = 0; k < 2; k++) { /* whole periods apart, as near as distances */
-                double period = scene->period[k], apart = here.point[k] - there.point[k];
+            for (int k = 0; k < 2;
+                 k++) { /* whole periods apart, as near as distances */
+                double period = scene->period[k],
+                       apart = here.point[k] - there.point[k];
                 assert_close(apart, period * round(apart / period), 0, 1e-5);
             }
         }
