@@ -48,18 +48,14 @@ PPS_LANE four four_exp(four x) {
     const double LN2_HIGH = 0x1.62e42feep-1, LN2_LOW = 0x1.a39ef35793c76p-33;
     four shifted = x * INVERSE_LN2 + SHIFT, n = shifted - SHIFT;
     four r = (x - n * LN2_HIGH) - n * LN2_LOW;
-    four r2 = r * r, even = four_of(1.0 / 479001600), odd = four_of(1.0 / 6227020800);
-    even = even * r2 + 1.0 / 3628800; /* odd powers apart: half as long to wait */
-    odd = odd * r2 + 1.0 / 39916800;
-    even = even * r2 + 1.0 / 40320;
-    odd = odd * r2 + 1.0 / 362880;
-    even = even * r2 + 1.0 / 720;
-    odd = odd * r2 + 1.0 / 5040;
-    even = even * r2 + 1.0 / 24;
-    odd = odd * r2 + 1.0 / 120;
-    even = even * r2 + 0.5;
-    odd = odd * r2 + 1.0 / 6;
-    four p = 1 + (r + r2 * (even + r * odd));
+    /* Powers in pairs, pairs in pairs: a third of the wait of one after the other. */
+    four r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
+    four low = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
+    four middle =
+        (1.0 / 720 + r * (1.0 / 5040)) + r2 * (1.0 / 40320 + r * (1.0 / 362880));
+    four high = (1.0 / 3628800 + r * (1.0 / 39916800)) +
+                r2 * (1.0 / 479001600 + r * (1.0 / 6227020800));
+    four p = 1 + (r + r2 * (low + (r4 * middle + r8 * high)));
     four result = (four)((four_bits)p + ((four_bits)shifted << 52)); /* times 2^n */
     return four_choose(x < -708, four_of(0), result);
 }
