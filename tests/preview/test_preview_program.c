@@ -128,6 +128,20 @@ static void times_are_csv(void **state) {
     result_free(&r);
 }
 
+/* The light it opened with is what Monte Carlo is timed by: the clock's for both times. */
+static void monte_carlo_is_timed_once(void **state) {
+    (void)state;
+    result r = program_run("--bench --model mc --rays 20000 " SMALL OAK);
+    double ms, cpu_ms;
+    assert_int_equal(r.status, 0);
+    assert_int_equal(count_lines(r.out), 14);
+    const char *sun = strstr(r.out, "\n5,sun,");
+    assert_non_null(sun);
+    assert_int_equal(sscanf(sun, "\n5,sun,%lf,%lf", &ms, &cpu_ms), 2);
+    assert_true(ms > 0 && ms == cpu_ms);
+    result_free(&r);
+}
+
 /* A box of four cards, each as wide as the box. */
 static void leaves_larger_than_cells_are_told(void **state) {
     (void)state;
@@ -243,6 +257,7 @@ int main(void) {
         cmocka_unit_test(options_change_the_picture),
         cmocka_unit_test(a_split_picture_has_a_half_of_each),
         cmocka_unit_test(times_are_csv),
+        cmocka_unit_test(monte_carlo_is_timed_once),
         cmocka_unit_test(leaves_larger_than_cells_are_told),
         cmocka_unit_test(bad_usage_is_refused_in_one_line),
         cmocka_unit_test(without_display_or_driver_it_says_so),
