@@ -1,19 +1,13 @@
-/* Two stages of one scene each their own, for their light differs.
+/* A scene, and a stage for each model that lights it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/pair.h"
 
-#include "preview/stage_open.h"
-
-bool pair_open(const preview_options *options, stage_pair *out, int *rc,
+bool pair_open(pps_scene *scene, const preview_options *options, stage_pair *out,
                pps_problem *problem) {
-    *out = (stage_pair){{NULL, NULL}};
+    *out = (stage_pair){scene, {NULL, NULL}};
     for (int i = 0; i < (options->split ? 2 : 1); i++) {
-        pps_scene *scene = scene_for(options, problem);
-        *rc = scene ? EXIT_FAILED : EXIT_USAGE;
-        out->of[i] =
-            scene ? stage_open(scene, i ? &options->second : &options->stage, problem)
-                  : NULL;
+        out->of[i] = stage_open(scene, i ? &options->second : &options->stage, problem);
         if (!out->of[i]) {
             pair_close(out);
             return false;
@@ -23,10 +17,10 @@ bool pair_open(const preview_options *options, stage_pair *out, int *rc,
 }
 
 void pair_close(stage_pair *pair) {
-    for (int i = 0; i < 2; i++) {
-        stage_close(pair->of[i]);
-        pair->of[i] = NULL;
-    }
+    stage_close(pair->of[0]);
+    stage_close(pair->of[1]);
+    pps_scene_free(pair->scene);
+    *pair = (stage_pair){NULL, {NULL, NULL}};
 }
 
 void pair_draw(const stage_pair *pair, int at, const pps_camera *camera, int width,

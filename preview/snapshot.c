@@ -29,7 +29,7 @@ static pps_picture *draw(const stage_pair *pair, const preview_options *options,
         pps_picture_free(picture);
         return NULL;
     }
-    pps_camera_fit(pair->of[0]->scene, options->view[0], options->view[1],
+    pps_camera_fit(pair->scene, options->view[0], options->view[1],
                    (double)options->width / options->height, &camera);
     zoom_in(&camera, options->zoom);
     frame_begin(&f);
@@ -47,7 +47,7 @@ static pps_picture *draw(const stage_pair *pair, const preview_options *options,
 
 pps_picture *snapshot_draw(stage *s, const preview_options *options,
                            pps_problem *problem) {
-    stage_pair alone = {{s, NULL}};
+    stage_pair alone = {s->scene, {s, NULL}};
     return draw(&alone, options, problem);
 }
 

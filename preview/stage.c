@@ -225,7 +225,6 @@ stage *stage_open(pps_scene *scene, const stage_options *options,
                   pps_problem *problem) {
     stage *s = calloc(1, sizeof *s);
     if (!s) {
-        pps_scene_free(scene);
         fail(PPS_ERR_MEMORY, "the scene", problem);
         return NULL;
     }
@@ -262,7 +261,6 @@ void stage_close(stage *s) {
     glDeleteProgram(s->sky_program);
     pps_system_free(s->system);
     pps_irradiance_free(s->leaves);
-    pps_scene_free(s->scene);
     free(s->attenuation);
     free(s->mesh);
     free(s->instances);

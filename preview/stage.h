@@ -50,7 +50,7 @@ typedef struct {
 } stage_sun;
 
 typedef struct stage {
-    pps_scene *scene;
+    pps_scene *scene; /* not its own */
     stage_options options;
     pps_system *system;
     float *attenuation;     /* of LEAVES */
@@ -69,7 +69,7 @@ typedef struct stage {
     GLuint depth_program, plant_program, ground_program, sky_program;
 } stage;
 
-/* Take a scene, which the stage then owns, and do steps 1 to 5. NULL: the problem. */
+/* Do steps 1 to 5 for a scene, which must outlive the stage. NULL: the problem. */
 stage *stage_open(pps_scene *scene, const stage_options *options, pps_problem *problem);
 void stage_close(stage *s); /* NULL is fine */
 

@@ -32,7 +32,7 @@ static void note_file_time(view_window *w) {
 
 /* What the scene says, into the settings. */
 static void read_scene(view_window *w) {
-    const pps_scene *scene = w->stages.of[0]->scene;
+    const pps_scene *scene = w->stages.scene;
     const double *to = scene->sun.to;
     w->settings.sun[0] = atan2(to[1], to[0]) * 180 / 3.14159265358979323846;
     w->settings.sun[1] = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
@@ -52,10 +52,22 @@ static void warn(view_window *w) {
     }
 }
 
-static bool load(view_window *w, bool keep, pps_problem *problem) {
-    preview_options options = w->settings.options;
+/* Light a scene, and show it in place of what is there. */
+static bool take_scene(view_window *w, pps_scene *scene, pps_problem *problem) {
     stage_pair fresh;
-    int rc;
+    if (!pair_open(scene, &w->settings.options, &fresh, problem)) {
+        return false;
+    }
+    pair_close(&w->stages);
+    w->stages = fresh;
+    read_scene(w);
+    warn(w);
+    return true;
+}
+
+bool window_load(view_window *w, bool keep) {
+    preview_options options = w->settings.options;
+    pps_problem problem = {""};
     options.scene = scene_path(w);
     if (keep) {
         options.sun_given = true;
@@ -63,21 +75,10 @@ static bool load(view_window *w, bool keep, pps_problem *problem) {
     }
     note_file_time(w);
     w->dirty = true;
-    if (!pair_open(&options, &fresh, &rc, problem)) {
-        snprintf(w->note, sizeof w->note, "%s", problem->text);
-        return false;
-    }
-    pair_close(&w->stages);
-    w->stages = fresh;
-    w->note[0] = '\0';
-    read_scene(w);
-    warn(w);
-    return true;
-}
-
-bool window_load(view_window *w, bool keep) {
-    pps_problem problem = {""};
-    return load(w, keep, &problem);
+    pps_scene *scene = scene_for(&options, &problem);
+    bool good = scene && take_scene(w, scene, &problem);
+    snprintf(w->note, sizeof w->note, "%s", problem.text);
+    return good;
 }
 
 static void reload_when_changed(view_window *w) {
@@ -92,14 +93,13 @@ static void reload_when_changed(view_window *w) {
 /* Give leaves their new albedo, and find all light anew. */
 static void light_leaves(view_window *w) {
     pps_problem problem = {""};
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        stage *s = w->stages.of[i];
-        for (int b = 0; b < s->scene->n_bands; b++) {
-            if (!isnan(w->settings.options.albedo[b])) {
-                set_albedo(s->scene, b, w->settings.options.albedo[b]);
-            }
+    for (int b = 0; b < w->stages.scene->n_bands; b++) {
+        if (!isnan(w->settings.options.albedo[b])) {
+            set_albedo(w->stages.scene, b, w->settings.options.albedo[b]);
         }
-        if (!stage_light_sky(s, &problem)) {
+    }
+    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
+        if (!stage_light_sky(w->stages.of[i], &problem)) {
             snprintf(w->note, sizeof w->note, "%s", problem.text);
         }
     }
@@ -125,12 +125,12 @@ void window_apply(view_window *w, setting_effect effect, const settings *before)
 static bool light_sun(view_window *w, pps_problem *problem) {
     bool dragged = w->drag == DRAG_SUN || w->drag == DRAG_TIME;
     w->sun_moved = false;
+    turn_sun(w->stages.scene, w->settings.sun[0], w->settings.sun[1]);
     for (int i = 0; i < 2 && w->stages.of[i]; i++) {
         stage *s = w->stages.of[i];
         s->options.sources = w->settings.options.stage.sources;
         uint64_t rays = stage_rays(s->scene, w->settings.options.stage.rays);
         s->options.rays = dragged ? rays / FEWER_RAYS + 1 : rays;
-        turn_sun(s->scene, w->settings.sun[0], w->settings.sun[1]);
         if (!stage_light_sun(s, problem)) {
             return false;
         }
@@ -314,7 +314,7 @@ bool window_draw(view_window *w, pps_problem *problem) {
 
 void window_start_view(view_window *w) {
     const preview_options *o = &w->settings.options;
-    orbit_fit(&w->orbit, w->stages.of[0]->scene, o->view[0], o->view[1],
+    orbit_fit(&w->orbit, w->stages.scene, o->view[0], o->view[1],
               (double)w->fine.width / w->fine.height);
     orbit_zoom(&w->orbit, o->zoom);
 }
@@ -376,13 +376,23 @@ static bool loop(view_window *w, pps_problem *problem) {
     return true;
 }
 
-bool window_open(const preview_options *options, view_window *w, pps_problem *problem) {
+int window_open(const preview_options *options, view_window *w, pps_problem *problem) {
     *w = (view_window){.settings = {.options = *options, .split_at = 0.5}};
-    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
-        window_start_view(w);
-        return true;
+    note_file_time(w);
+    pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
+    if (!scene) {
+        return EXIT_USAGE;
     }
-    return false;
+    if (!open_window(w, problem) || !prepare(w, problem)) {
+        pps_scene_free(scene);
+        return EXIT_FAILED;
+    }
+    if (!take_scene(w, scene, problem)) {
+        return EXIT_FAILED;
+    }
+    window_start_view(w);
+    w->dirty = true;
+    return EXIT_DONE;
 }
 
 void window_close(view_window *w) {
@@ -400,19 +410,13 @@ void window_close(view_window *w) {
 
 int window_run(const preview_options *options, pps_problem *problem) {
     view_window *w = calloc(1, sizeof *w);
-    int rc = EXIT_FAILED;
     if (!w) {
         strcpy(problem->text, "out of memory");
-        return rc;
+        return EXIT_FAILED;
     }
-    pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
-    if (!scene) {
-        free(w);
-        return EXIT_USAGE;
-    }
-    pps_scene_free(scene);
-    if (window_open(options, w, problem)) {
-        rc = loop(w, problem) ? EXIT_DONE : EXIT_FAILED;
+    int rc = window_open(options, w, problem);
+    if (rc == EXIT_DONE && !loop(w, problem)) {
+        rc = EXIT_FAILED;
     }
     window_close(w);
     free(w);

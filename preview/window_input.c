@@ -131,7 +131,7 @@ static void on_button(GLFWwindow *window, int button, int action, int mods) {
 
 /* By shares of the window. */
 static void move(view_window *w, double x, double y, double aspect) {
-    const pps_ground *ground = &w->stages.of[0]->scene->ground;
+    const pps_ground *ground = &w->stages.scene->ground;
     settings before = w->settings;
     switch (w->drag) {
     case DRAG_VIEW:

@@ -39,9 +39,9 @@ typedef struct {
     int pictures;
 } view_window;
 
-/* Open it with the scene that options ask for; false: the problem. To be closed either
- * way. */
-bool window_open(const preview_options *options, view_window *w, pps_problem *problem);
+/* Open it with the scene that options ask for. An exit code, its problem: EXIT_USAGE where
+ * the scene is to blame. To be closed in any case. */
+int window_open(const preview_options *options, view_window *w, pps_problem *problem);
 void window_close(view_window *w);
 
 /* Draw a frame of what is there now, and what is written over it. */

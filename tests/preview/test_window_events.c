@@ -45,7 +45,8 @@ static int setup(void **state) {
     write_cards("window-cards.obj", 4);
     dense = system(DENSE) == 0;
     if (!options_read(8, argv, &options, &problem) ||
-        !window_open(&options, &w, &problem) || !window_draw(&w, &problem)) {
+        window_open(&options, &w, &problem) != EXIT_DONE ||
+        !window_draw(&w, &problem)) {
         print_message("%s\n", problem.text);
         return -1;
     }
