@@ -144,10 +144,8 @@ static int prepare(table *t) {
 
     if (!status) {
         t->n_leaves = scene->n_leaves;
-        t->att = malloc(PPS_OCTANTS * t->n_leaves * sizeof *t->att);
         double start = system_seconds();
-        status =
-            t->att ? pps_leaf_attenuation(scene, &options, t->att) : PPS_ERR_MEMORY;
+        status = pps_leaf_attenuation_create(scene, &options, &t->att);
         double seconds = system_seconds() - start;
         row.ours = 1 / seconds;
         row.seconds_per_leaf = seconds / (double)t->n_leaves;

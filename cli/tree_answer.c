@@ -167,19 +167,9 @@ static pps_status need_cells(tree_work *work) {
 
 static pps_status need_attenuations(tree_work *work) {
     pps_attenuation_options options = {.threads = work->settings->threads};
-    float *att = work->att;
-    pps_status status = PPS_OK;
 
-    if (!att) {
-        att = malloc((PPS_OCTANTS * work->scene->n_leaves + 1) * sizeof *att);
-        status =
-            att ? pps_leaf_attenuation(work->scene, &options, att) : PPS_ERR_MEMORY;
-        if (status)
-            free(att);
-        else
-            work->att = att;
-    }
-    return status;
+    return work->att ? PPS_OK
+                     : pps_leaf_attenuation_create(work->scene, &options, &work->att);
 }
 
 static pps_status run_model(tree_work *work, const tree_method *method,

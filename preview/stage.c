@@ -79,10 +79,7 @@ static pps_status prepare_leaves(stage *s) {
         return PPS_OK;
     }
     pps_attenuation_options options = {.threads = s->options.threads};
-    s->attenuation =
-        malloc((PPS_OCTANTS * s->scene->n_leaves + 1) * sizeof *s->attenuation);
-    return s->attenuation ? pps_leaf_attenuation(s->scene, &options, s->attenuation)
-                          : PPS_ERR_MEMORY;
+    return pps_leaf_attenuation_create(s->scene, &options, &s->attenuation);
 }
 
 /* ---- steps ---- */

@@ -171,3 +171,24 @@ pps_status pps_leaf_attenuation(const pps_scene *scene,
     pps_octree_free(tree);
     return PPS_OK;
 }
+
+pps_status pps_leaf_attenuation_create(const pps_scene *scene,
+                                       const pps_attenuation_options *options,
+                                       float **out) {
+    if (!out) {
+        return PPS_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (!scene || scene->n_leaves == 0) {
+        return PPS_ERR_ARGUMENT;
+    }
+    float *att = malloc(PPS_OCTANTS * scene->n_leaves * sizeof *att);
+    pps_status status =
+        att ? pps_leaf_attenuation(scene, options, att) : PPS_ERR_MEMORY;
+    if (status) {
+        free(att);
+        return status;
+    }
+    *out = att;
+    return PPS_OK;
+}

@@ -279,6 +279,28 @@ static void threads_do_not_change_the_attenuation(void **state) {
     pps_scene_free(scene);
 }
 
+static void an_array_of_its_own_holds_the_same(void **state) {
+    (void)state;
+    enum { N = 200 };
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 2, N, 3);
+    pps_attenuation_options o = {.opening = 0.3};
+    float here[8 * N], *own = here;
+    assert_int_equal(pps_leaf_attenuation(scene, &o, here), PPS_OK);
+    assert_int_equal(pps_leaf_attenuation_create(scene, &o, &own), PPS_OK);
+    assert_memory_equal(own, here, sizeof here);
+    free(own);
+    o.threads = -1;
+    assert_int_equal(pps_leaf_attenuation_create(scene, &o, &own), PPS_ERR_ARGUMENT);
+    assert_null(own);
+    scene->n_leaves = 0;
+    own = here;
+    assert_int_equal(pps_leaf_attenuation_create(scene, NULL, &own), PPS_ERR_ARGUMENT);
+    assert_null(own);
+    assert_int_equal(pps_leaf_attenuation_create(NULL, NULL, &own), PPS_ERR_ARGUMENT);
+    assert_int_equal(pps_leaf_attenuation_create(scene, NULL, NULL), PPS_ERR_ARGUMENT);
+    pps_scene_free(scene);
+}
+
 /* Far copies of the scene take light away, and the same from either side. */
 static void neighbours_of_a_periodic_scene_shade(void **state) {
     (void)state;
@@ -370,6 +392,7 @@ int main(void) {
         cmocka_unit_test(a_lone_leaf_has_clear_octants),
         cmocka_unit_test(groups_of_leaves_are_as_good_as_leaves),
         cmocka_unit_test(threads_do_not_change_the_attenuation),
+        cmocka_unit_test(an_array_of_its_own_holds_the_same),
         cmocka_unit_test(neighbours_of_a_periodic_scene_shade),
         cmocka_unit_test(rays_see_a_ceiling),
         cmocka_unit_test(products_agree_with_rays_in_the_mean),

@@ -40,6 +40,13 @@ PPS_API pps_status pps_leaf_attenuation(const pps_scene *scene,
                                         const pps_attenuation_options *options,
                                         float *att);
 
+/* The same in an array of its own, att[PPS_OCTANTS * n_leaves], which is the caller's: to
+ * be given to free(). Where it fails *out is NULL: ARGUMENT (no leaves, a negative number
+ * of threads, an opening of 1 or more), MEMORY. */
+PPS_API pps_status pps_leaf_attenuation_create(const pps_scene *scene,
+                                               const pps_attenuation_options *options,
+                                               float **out);
+
 /* The same by rays, for comparison: the share of each octant that `samples` lines (0: 64)
  * from random points of the leaf find free of leaves and wood. */
 PPS_API pps_status pps_leaf_visibility(const pps_scene *scene, int samples,
