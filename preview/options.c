@@ -333,6 +333,9 @@ static bool read_one(int id, const char *text, preview_options *o,
     case BENCH:
         o->bench = true;
         return true;
+    case APART:
+        o->stage.apart = true;
+        return true;
     case HELP:
         o->help = true;
         return true;
@@ -376,6 +379,12 @@ static bool check(const preview_options *o, bool compensate_given, const char *m
          (s->way == STAGE_GRID && !s->model->compensates))) {
         snprintf(problem->text, sizeof problem->text,
                  "--compensate: the model %s takes no G-factor", model);
+        return false;
+    }
+    if (s->apart && s->way != STAGE_LEAVES &&
+        !(o->split && o->second.way == STAGE_LEAVES)) {
+        snprintf(problem->text, sizeof problem->text,
+                 "--apart: it is for the model leaf; this is %s", model);
         return false;
     }
     if (o->bench && o->snapshot) {

@@ -78,7 +78,8 @@ static pps_status prepare_leaves(stage *s) {
     if (s->options.way != STAGE_LEAVES) {
         return PPS_OK;
     }
-    pps_attenuation_options options = {.threads = s->options.threads};
+    pps_attenuation_options options = {.threads = s->options.threads,
+                                       .apart = s->options.apart};
     return pps_leaf_attenuation_create(s->scene, &options, &s->attenuation);
 }
 
@@ -211,11 +212,12 @@ static bool open_all(stage *s, pps_problem *problem) {
         !compile_all(s, problem)) {
         return false;
     }
-    size_t n_poses = s->scene->n_instances; /* at most */
-    n_poses = s->system ? s->system->n_poses : n_poses;
-    return gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
+    size_t n_poses = 0;
+    return !fail(stage_count_poses(s->scene, &n_poses), "the sun's maps", problem) &&
+           gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
                            &s->sun.maps, problem) &&
-           stage_light_sky(s, problem) && stage_open_ground(s, problem);
+           stage_light_sky(s, problem) &&
+           (!s->scene->ground.present || stage_open_ground(s, problem));
 }
 
 stage *stage_open(pps_scene *scene, const stage_options *options,

@@ -22,6 +22,7 @@ typedef struct {
     const pps_light_model *model; /* of GRID and LEAVES */
     pps_compensation compensate;
     unsigned sources; /* pps_light_source, added */
+    bool apart;       /* LEAVES: plants do not shade one another */
     bool by_point;    /* models by counts: the sun's scattered light pixel by pixel */
     int map_texels;   /* of the sun's maps that shaders read */
     uint64_t rays;    /* of MONTE_CARLO, as stage_rays */

@@ -186,6 +186,7 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--snapshot no/such/a.png " SMALL OAK,
          "--snapshot: cannot write 'no/such/a.png': No such file", 2},
         {"--split fog " OAK, "--split: 'fog' is not possible; allowed: lattice, ", 2},
+        {"--apart --model ss " OAK, "--apart: it is for the model leaf; this is ss", 2},
         {"--split ss --bench " OAK, "--bench and --split", 2},
         {"--albedo 1.5 " OAK, "--albedo: '1.5' is not possible; allowed: numbers", 2},
         {"--albedo 0.5,, " OAK, "--albedo: '0.5,,' is not possible", 2},
@@ -238,7 +239,7 @@ static void help_lists_every_option(void **state) {
         "--split",    "--scattered", "--albedo",  "--latitude",   "--zoom",
         "--detail",   "--relief",    "--sun",     "--view",       "--size",
         "--show",     "--exposure",  "--samples", "--rays",       "--jobs",
-        "--help",     "--version"};
+        "--apart",    "--help",      "--version"};
     result r = program_run("--help");
     assert_int_equal(r.status, 0);
     for (size_t i = 0; i < sizeof option / sizeof *option; i++) {

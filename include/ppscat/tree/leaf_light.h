@@ -25,10 +25,12 @@ enum { PPS_OCTANTS = 8 };
 PPS_API void pps_octant_direction(int j, double out[3]);
 
 typedef struct pps_attenuation_options {
-    double
-        opening; /* a group of leaves counts as one where its radius is less than this
-                       share of its distance; 0: 0.6. Negative: every leaf by itself */
+    /* A group of leaves counts as one where its radius is less than this share of its
+     * distance; 0: 0.6. Negative: every leaf by itself. */
+    double opening;
     int threads; /* 0: all cores; never changes the answer */
+    bool apart;  /* plants do not shade one another (as in B section 7): what each would
+                    have alone, found once for all of a prototype and yaw */
 } pps_attenuation_options;
 
 /* att[8 * leaf + j] of every leaf of the scene, by the product of what each other leaf
