@@ -183,25 +183,22 @@ static pps_status load_meshes(stage *s) {
     return status;
 }
 
+static bool compile(const char *vertex, const char *fragment, GLuint *out,
+                    pps_problem *problem) {
+    *out = gl_program(vertex, fragment, problem);
+    return *out != 0;
+}
+
 static bool compile_all(stage *s, pps_problem *problem) {
     bool counts = stage_counts(s);
-    s->depth_program = gl_program("plant_vert", "depth_frag", problem);
-    s->plant_program =
-        s->depth_program
-            ? gl_program("plant_vert",
-                         counts ? "by_count+sun+spp+leaf_light+relief+plant_frag"
-                                : "by_opacity+sun+spp+leaf_light+relief+plant_frag",
-                         problem)
-            : 0;
-    s->ground_program = s->plant_program
-                            ? gl_program("ground_vert",
-                                         counts ? "by_count+sun+ground_frag"
-                                                : "by_opacity+sun+ground_frag",
-                                         problem)
-                            : 0;
-    s->sky_program =
-        s->ground_program ? gl_program("screen_vert", "sky_frag", problem) : 0;
-    return s->sky_program != 0;
+    const char *plant = counts ? "by_count+sun+spp+leaf_light+relief+plant_frag"
+                               : "by_opacity+sun+spp+leaf_light+relief+plant_frag";
+    const char *ground =
+        counts ? "by_count+sun+ground_frag" : "by_opacity+sun+ground_frag";
+    return compile("plant_vert", "depth_frag", &s->depth_program, problem) &&
+           compile("plant_vert", plant, &s->plant_program, problem) &&
+           compile("ground_vert", ground, &s->ground_program, problem) &&
+           compile("screen_vert", "sky_frag", &s->sky_program, problem);
 }
 
 static bool open_all(stage *s, pps_problem *problem) {
