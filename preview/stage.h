@@ -37,8 +37,7 @@ typedef struct {
     double detail; /* pixels: where leaves are smaller, fewer and larger ones stand for
                       them, until they are that large; 0: every leaf */
     double relief; /* of leaves, 0 to 1 */
-    bool
-        all; /* also plants that are out of view (to see what leaving them out saves) */
+    bool all;      /* plants out of view too, to see what leaving them out saves */
 } stage_look;
 
 /* Seconds: [0..4] the system's steps 1 to 5, [5] the sun's maps on the GPU. */
