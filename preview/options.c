@@ -26,6 +26,32 @@ const preview_option options_table[] = {
 #undef OPTION
     {NULL, NULL, NULL}};
 
+/* ---- words ---- */
+
+#define ROW(name, value) {name, value},
+const option_word component_words[] = {PPS_LIGHT_COMPONENT_LIST(ROW){NULL, 0}};
+const option_word compensation_words[] = {PPS_COMPENSATION_LIST(ROW){NULL, 0}};
+#undef ROW
+const option_word show_words[] = {
+    {"light", SHOW_LIGHT}, {"sun", SHOW_SUN}, {"scattered", SHOW_SCATTERED}, {NULL, 0}};
+const option_word scattered_words[] = {{"pixel", true}, {"cell", false}, {NULL, 0}};
+
+size_t words_count(const option_word *table) {
+    size_t n = 0;
+    while (table[n].word) {
+        n++;
+    }
+    return n;
+}
+
+size_t words_find(const option_word *table, unsigned value) {
+    size_t i = 0;
+    while (table[i].word && table[i].value != value) {
+        i++;
+    }
+    return i;
+}
+
 /* ---- help ---- */
 
 enum { INDENT = 29, COLUMNS = 79 };
@@ -89,14 +115,58 @@ static bool read_pair(const char *text, double out[2]) {
     return end != comma + 1 && !*end && isfinite(out[0]) && isfinite(out[1]);
 }
 
-/* Which of the words; -1: none. */
-static int read_word(const char *text, const char *const *word, int n) {
-    for (int i = 0; i < n; i++) {
-        if (strcmp(text, word[i]) == 0) {
-            return i;
+/* What the first `length` characters stand for; NULL: they are no word of the table. */
+static const option_word *find_word(const option_word *table, const char *text,
+                                    size_t length) {
+    for (; table->word; table++) {
+        if (strlen(table->word) == length && memcmp(table->word, text, length) == 0) {
+            return table;
         }
     }
-    return -1;
+    return NULL;
+}
+
+static bool refuse_word(pps_problem *problem, const char *option, const char *text,
+                        const option_word *table, const char *also) {
+    char allowed[200];
+    size_t used = 0;
+    for (const option_word *row = table; row->word && used < sizeof allowed; row++) {
+        used += (size_t)snprintf(allowed + used, sizeof allowed - used, "%s%s",
+                                 row == table ? "" : ", ", row->word);
+    }
+    if (used < sizeof allowed) {
+        snprintf(allowed + used, sizeof allowed - used, "%s", also);
+    }
+    return refuse(problem, option, text, allowed);
+}
+
+static bool read_word(const char *option, const char *text, const option_word *table,
+                      unsigned *out, pps_problem *problem) {
+    const option_word *row = find_word(table, text, strlen(text));
+    if (!row) {
+        return refuse_word(problem, option, text, table, "");
+    }
+    *out = row->value;
+    return true;
+}
+
+/* Some words, with commas between them: all that they stand for. */
+static bool read_words(const char *option, const char *text, const option_word *table,
+                       unsigned *out, pps_problem *problem) {
+    const char *at = text;
+    for (*out = 0;; at++) {
+        size_t length = strcspn(at, ",");
+        const option_word *row = find_word(table, at, length);
+        if (!row) {
+            return refuse_word(problem, option, text, table,
+                               ", with commas between them");
+        }
+        *out |= row->value;
+        at += length;
+        if (!*at) {
+            return true;
+        }
+    }
 }
 
 /* A model that needs cells and has no field of them is none for the stage. */
@@ -145,31 +215,6 @@ void options_model_names(char *out, size_t size) {
     }
     if (used < size) {
         snprintf(out + used, size - used, "sppg, mc");
-    }
-}
-
-static bool read_components(const char *text, unsigned *out) {
-    static const char *const word[] = {"all", "sun", "indirect", "sky", "sky-indirect"};
-    static const unsigned bit[] = {PPS_ALL_LIGHT, PPS_SUN, PPS_SUN_INDIRECT, PPS_SKY,
-                                   PPS_SKY_INDIRECT};
-    *out = 0;
-    for (;;) {
-        char one[16];
-        size_t length = strcspn(text, ",");
-        if (length >= sizeof one) {
-            return false;
-        }
-        memcpy(one, text, length);
-        one[length] = '\0';
-        int k = read_word(one, word, 5);
-        if (k < 0) {
-            return false;
-        }
-        *out |= bit[k];
-        if (!text[length]) {
-            return true;
-        }
-        text += length + 1;
     }
 }
 
@@ -281,31 +326,32 @@ static bool read_exposure(const char *text, preview_options *o, pps_problem *pro
            refuse(problem, "exposure", text, "a number above 0");
 }
 
-static bool read_number(int id, const char *text, preview_options *o,
+static bool read_choice(int id, const char *text, preview_options *o,
                         pps_problem *problem) {
-    static const char *const forms[] = {"none", "derived", "printed"};
-    static const char *const scattered[] = {"pixel", "cell"};
-    static const char *const shows[] = {"light", "sun", "scattered"};
-    long long n = 0;
-    int k;
+    const char *name = options_table[id].name;
+    unsigned value = 0;
+    bool good;
     switch (id) {
     case COMPENSATE:
-        k = read_word(text, forms, 3);
-        o->stage.compensate = (pps_compensation)k;
-        return k >= 0 || refuse(problem, "compensate", text, "none, derived, printed");
+        good = read_word(name, text, compensation_words, &value, problem);
+        o->stage.compensate = (pps_compensation)value;
+        break;
     case SHOW:
-        k = read_word(text, shows, 3);
-        o->look.show = (stage_show)k;
-        return k >= 0 || refuse(problem, "show", text, "light, sun, scattered");
-    case SCATTERED:
-        k = read_word(text, scattered, 2);
-        o->stage.by_point = k == 0;
-        return k >= 0 || refuse(problem, "scattered", text, "pixel, cell");
-    case COMPONENT:
-        return read_components(text, &o->stage.sources) ||
-               refuse(
-                   problem, "component", text,
-                   "all, sun, indirect, sky, sky-indirect, with commas between them");
+        good = read_word(name, text, show_words, &value, problem);
+        o->look.show = (stage_show)value;
+        break;
+    default:
+        good = read_word(name, text, scattered_words, &value, problem);
+        o->stage.by_point = value;
+        break;
+    }
+    return good;
+}
+
+static bool read_number(int id, const char *text, preview_options *o,
+                        pps_problem *problem) {
+    long long n = 0;
+    switch (id) {
     case SAMPLES:
         o->samples = (int)(read_whole(text, 1, 8, &n) ? n : 0);
         return o->samples ||
@@ -347,6 +393,13 @@ static bool read_one(int id, const char *text, preview_options *o,
     case SPLIT:
         o->split = true;
         return read_model("split", text, &o->second, problem);
+    case COMPENSATE:
+    case SHOW:
+    case SCATTERED:
+        return read_choice(id, text, o, problem);
+    case COMPONENT:
+        return read_words("component", text, component_words, &o->stage.sources,
+                          problem);
     case ALBEDO:
         return read_albedo(text, o, problem);
     case SUN:

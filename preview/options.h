@@ -35,6 +35,20 @@ typedef struct {
 } preview_option;
 extern const preview_option options_table[];
 
+/* Words that options and settings share, and what they stand for; a table ends with a row
+ * without a word. */
+typedef struct {
+    const char *word;
+    unsigned value; /* of the enumeration, or sources */
+} option_word;
+extern const option_word component_words[], compensation_words[], show_words[],
+    scattered_words[];
+
+size_t words_count(const option_word *table);
+
+/* The row that has the value; words_count() if there is none. */
+size_t words_find(const option_word *table, unsigned value);
+
 /* False, with one line that names option, value and what is allowed. */
 bool options_read(int argc, char **argv, preview_options *out, pps_problem *problem);
 

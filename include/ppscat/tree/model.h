@@ -19,6 +19,12 @@ typedef enum {
     PPS_COMPENSATE_PRINTED  /* the printed shape, upper half sphere */
 } pps_compensation;
 
+/* The same by the names that the programs use: X(name, pps_compensation). */
+#define PPS_COMPENSATION_LIST(X)                                                       \
+    X("none", PPS_COMPENSATE_NONE)                                                     \
+    X("derived", PPS_COMPENSATE_DERIVED)                                               \
+    X("printed", PPS_COMPENSATE_PRINTED)
+
 typedef struct pps_light_options {
     pps_compensation compensate;
     unsigned sources;      /* pps_light_source, added; 0: all that the model has */
