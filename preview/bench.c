@@ -45,7 +45,7 @@ static void print_row(const bench *b, int step, const char *work, duration t) {
     printf("%d,%s,%.3f,%.3f,%.4g,%zu,%zu,%zu,%d,%d,%d,\"%s\"\n", step, work,
            1000 * t.wall, 1000 * t.cpu, t.wall > 0 ? 1 / t.wall : 0,
            s->scene->n_instances, s->n_triangles, s->system ? s->system->n_cells : 0,
-           b->frame.width, b->frame.height, b->options->samples,
+           b->frame.width, b->frame.height, b->frame.samples,
            (const char *)glGetString(GL_RENDERER));
     fflush(stdout);
 }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { SIZE_LEAST = 16, SIZE_MOST = 8192, THREADS_MOST = 4096 };
@@ -205,6 +206,11 @@ const char *options_model_name(const stage_options *o) {
                                          : o->model->name;
 }
 
+bool options_lit(const stage_options *o) {
+    bool all = o->way == STAGE_INSTANCES || o->way == STAGE_MONTE_CARLO;
+    return all || o->sources & o->model->sources;
+}
+
 void options_model_names(char *out, size_t size) {
     size_t used = 0;
     for (size_t i = 0; i < pps_light_model_count() && used < size; i++) {
@@ -239,9 +245,12 @@ static bool read_snapshot(const char *text, preview_options *o, pps_problem *pro
     const char *slash = strrchr(text, '/');
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - text) + 1 : 1,
              slash ? text : ".");
-    if (access(folder, W_OK) != 0) { /* known before anything is drawn */
+    struct stat about;
+    bool is_folder = stat(text, &about) == 0 && S_ISDIR(about.st_mode);
+    if (is_folder || access(folder, W_OK) != 0) { /* known before anything is drawn */
         snprintf(problem->text, sizeof problem->text,
-                 "--snapshot: cannot write '%.200s': %s", text, strerror(errno));
+                 "--snapshot: cannot write '%.200s': %s", text,
+                 strerror(is_folder ? EISDIR : errno));
         return false;
     }
     o->snapshot = text;
@@ -249,11 +258,17 @@ static bool read_snapshot(const char *text, preview_options *o, pps_problem *pro
 }
 
 static bool read_size(const char *text, preview_options *o, pps_problem *problem) {
-    char end;
-    return (sscanf(text, "%5dx%5d%c", &o->width, &o->height, &end) == 2 &&
-            o->width >= SIZE_LEAST && o->width <= SIZE_MOST &&
-            o->height >= SIZE_LEAST && o->height <= SIZE_MOST) ||
-           refuse(problem, "size", text, "WIDTHxHEIGHT, 16 to 8192 pixels each");
+    char width[8];
+    size_t length = strcspn(text, "x");
+    long long n[2];
+    snprintf(width, sizeof width, "%.*s", (int)(length < 7 ? length : 7), text);
+    if (!text[length] || !read_whole(width, SIZE_LEAST, SIZE_MOST, &n[0]) ||
+        !read_whole(text + length + 1, SIZE_LEAST, SIZE_MOST, &n[1])) {
+        return refuse(problem, "size", text, "WIDTHxHEIGHT, 16 to 8192 pixels each");
+    }
+    o->width = (int)n[0];
+    o->height = (int)n[1];
+    return true;
 }
 
 static bool read_model(const char *option, const char *text, stage_options *out,
@@ -432,6 +447,11 @@ static bool check(const preview_options *o, bool compensate_given, const char *m
          (s->way == STAGE_GRID && !s->model->compensates))) {
         snprintf(problem->text, sizeof problem->text,
                  "--compensate: the model %s takes no G-factor", model);
+        return false;
+    }
+    if (!options_lit(s) && !(o->split && options_lit(&o->second))) {
+        snprintf(problem->text, sizeof problem->text,
+                 "--component: the model %s knows none of this light", model);
         return false;
     }
     if (s->apart && s->way != STAGE_LEAVES &&

@@ -59,6 +59,9 @@ void options_help(FILE *out);
 bool options_model(const char *name, stage_options *out);
 const char *options_model_name(const stage_options *o);
 
+/* Whether the model knows any of the light asked for. */
+bool options_lit(const stage_options *o);
+
 /* The names that options_model knows, with commas between them. */
 void options_model_names(char *out, size_t size);
 

@@ -128,6 +128,10 @@ static void write_scattered(const settings *s, char *out, size_t size) {
 static setting_effect change_component(settings *s, int step) {
     unsigned next = next_word(component_words, s->options.stage.sources, step);
     s->options.stage.sources = s->options.second.sources = next;
+    if (!options_lit(&s->options.stage)) {
+        snprintf(s->note, sizeof s->note, "%s knows none of this light",
+                 options_model_name(&s->options.stage));
+    }
     return EFFECT_SUN;
 }
 

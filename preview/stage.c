@@ -85,6 +85,32 @@ static pps_status prepare_leaves(stage *s) {
 
 /* ---- steps ---- */
 
+static pps_system_options system_options(const stage_options *o) {
+    pps_system_options options = {.way = o->way == STAGE_GRID ? PPS_SYSTEM_GRID
+                                                              : PPS_SYSTEM_INSTANCES,
+                                  .model = o->way == STAGE_GRID ? o->model : NULL,
+                                  .by_point = o->by_point,
+                                  .threads = o->threads};
+    options.light.compensate = o->compensate;
+    return options;
+}
+
+bool stage_takes(const pps_scene *scene, const stage_options *options,
+                 pps_problem *problem) {
+    if (options->way != STAGE_INSTANCES) {
+        return true;
+    }
+    pps_system_options wish = system_options(options);
+    pps_system *system;
+    pps_status status = pps_system_create(scene, &wish, &system);
+    pps_system_free(system);
+    if (status == PPS_ERR_UNSUPPORTED) {
+        strcpy(problem->text, "the model sppg takes scenes that do not repeat, of "
+                              "plants turned by multiples of 72 degrees");
+    }
+    return status != PPS_ERR_UNSUPPORTED;
+}
+
 static bool prepare(stage *s, pps_problem *problem) {
     double start = now();
     if (!stage_cells_known(s)) {
@@ -92,12 +118,7 @@ static bool prepare(stage *s, pps_problem *problem) {
         s->seconds[0] = now() - start;
         return !failed;
     }
-    pps_system_options options = {
-        .way = s->options.way == STAGE_GRID ? PPS_SYSTEM_GRID : PPS_SYSTEM_INSTANCES,
-        .by_point = s->options.by_point,
-        .threads = s->options.threads};
-    options.model = s->options.way == STAGE_GRID ? s->options.model : NULL;
-    options.light.compensate = s->options.compensate;
+    pps_system_options options = system_options(&s->options);
     return !fail(pps_system_create(s->scene, &options, &s->system),
                  "the rendering system", problem) &&
            !fail(pps_system_construct_cells(s->system), "step 1, cells", problem) &&

@@ -69,6 +69,10 @@ typedef struct stage {
     GLuint depth_program, plant_program, ground_program, sky_program;
 } stage;
 
+/* False, and the problem: the model does not take such a scene. */
+bool stage_takes(const pps_scene *scene, const stage_options *options,
+                 pps_problem *problem);
+
 /* Do steps 1 to 5 for a scene, which must outlive the stage. NULL: the problem. */
 stage *stage_open(pps_scene *scene, const stage_options *options, pps_problem *problem);
 void stage_close(stage *s); /* NULL is fine */

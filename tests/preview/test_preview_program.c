@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <png.h>
 
@@ -186,6 +187,18 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--snapshot no/such/a.png " SMALL OAK,
          "--snapshot: cannot write 'no/such/a.png': No such file", 2},
         {"--split fog " OAK, "--split: 'fog' is not possible; allowed: lattice, ", 2},
+        {"--size ' 64x64' " OAK, "--size: ' 64x64' is not possible", 2},
+        {"--size 64x64x " OAK, "--size: '64x64x' is not possible", 2},
+        {"--snapshot folder.png " OAK,
+         "--snapshot: cannot write 'folder.png': Is a directory", 2},
+        {"--snapshot a.png " SMALL "--view 0,-20 " OAK,
+         "--view: from an elevation of -20 the ground hides all", 2},
+        {"--snapshot a.png --model sppg leaf-trees-4", "the model sppg takes scenes",
+         2},
+        {"--snapshot a.png --split sppg leaf-trees-4", "the model sppg takes scenes",
+         2},
+        {"--component sky-indirect --model leaf " OAK,
+         "--component: the model leaf knows none of this light", 2},
         {"--apart --model ss " OAK, "--apart: it is for the model leaf; this is ss", 2},
         {"--split ss --bench " OAK, "--bench and --split", 2},
         {"--albedo 1.5 " OAK, "--albedo: '1.5' is not possible; allowed: numbers", 2},
@@ -198,6 +211,7 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--scattered leaf " OAK, "--scattered: 'leaf' is not possible; allowed: pixel",
          2},
     };
+    assert_int_equal(mkdir("folder.png", 0777), 0);
     FILE *broken = fopen("broken.json", "w");
     assert_non_null(broken);
     fputs("{\"prototypes\": 3}\n", broken);
