@@ -480,7 +480,7 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
         .height = 720,
         .samples = 4,
         .view = {-60, 10},
-        .exposure = 1,
+        .exposure = 1.5,
         .zoom = 1,
         .latitude = 50,
         .albedo = {NAN, NAN, NAN, NAN},
