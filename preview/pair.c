@@ -3,17 +3,34 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/pair.h"
 
+bool pair_create(pps_scene *scene, const preview_options *options, stage_pair *out,
+                 pps_problem *problem) {
+    *out = (stage_pair){scene, {NULL, NULL}};
+    out->of[0] = stage_create(scene, &options->stage, problem);
+    if (options->split) {
+        out->of[1] = stage_create(scene, &options->second, problem);
+    }
+    return out->of[0] && (out->of[1] || !options->split);
+}
+
+bool pair_prepare(const stage_pair *pair, pps_problem *problem) {
+    return stage_prepare(pair->of[0], problem) &&
+           (!pair->of[1] || stage_prepare(pair->of[1], problem));
+}
+
+bool pair_upload(const stage_pair *pair, pps_problem *problem) {
+    return stage_upload(pair->of[0], problem) &&
+           (!pair->of[1] || stage_upload(pair->of[1], problem));
+}
+
 bool pair_open(pps_scene *scene, const preview_options *options, stage_pair *out,
                pps_problem *problem) {
-    *out = (stage_pair){scene, {NULL, NULL}};
-    for (int i = 0; i < (options->split ? 2 : 1); i++) {
-        out->of[i] = stage_open(scene, i ? &options->second : &options->stage, problem);
-        if (!out->of[i]) {
-            pair_close(out);
-            return false;
-        }
+    if (pair_create(scene, options, out, problem) && pair_prepare(out, problem) &&
+        pair_upload(out, problem)) {
+        return true;
     }
-    return true;
+    pair_close(out);
+    return false;
 }
 
 void pair_close(stage_pair *pair) {

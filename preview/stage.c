@@ -47,6 +47,22 @@ uint64_t stage_rays(const pps_scene *scene, uint64_t asked) {
     return asked ? asked : enough > LEAST ? enough : LEAST;
 }
 
+/* ---- progress ---- */
+
+static void begin_step(const stage *s, int step) {
+    stage_progress *progress = s->options.progress;
+    if (progress) {
+        atomic_store(&progress->percent, -1);
+        atomic_store(&progress->step, step);
+    }
+}
+
+static bool keep_going(void *user, uint64_t done, uint64_t total) {
+    stage_progress *progress = user;
+    atomic_store(&progress->percent, (int)(100 * done / total));
+    return !atomic_load(&progress->cancelled);
+}
+
 /* ---- light of leaves ---- */
 
 static pps_status light_leaves(stage *s) {
@@ -55,7 +71,9 @@ static pps_status light_leaves(stage *s) {
     if (s->options.way == STAGE_MONTE_CARLO) {
         pps_trace_options trace = {.rays = stage_rays(s->scene, s->options.rays),
                                    .sources = s->options.sources,
-                                   .threads = s->options.threads};
+                                   .threads = s->options.threads,
+                                   .progress = s->options.progress ? keep_going : NULL,
+                                   .user = s->options.progress};
         status = pps_trace_light(s->scene, &trace, &light, NULL);
     } else {
         status = pps_irradiance_create(s->scene, false, &light);
@@ -111,43 +129,41 @@ bool stage_takes(const pps_scene *scene, const stage_options *options,
     return status != PPS_ERR_UNSUPPORTED;
 }
 
-static bool prepare(stage *s, pps_problem *problem) {
-    double start = now();
-    if (!stage_cells_known(s)) {
-        bool failed = fail(prepare_leaves(s), "the light of leaves", problem);
-        s->seconds[0] = now() - start;
-        return !failed;
-    }
+static bool prepare_system(stage *s, pps_problem *problem) {
     pps_system_options options = system_options(&s->options);
-    return !fail(pps_system_create(s->scene, &options, &s->system),
-                 "the rendering system", problem) &&
-           !fail(pps_system_construct_cells(s->system), "step 1, cells", problem) &&
-           !fail(pps_system_map_directions(s->system), "step 2, maps", problem) &&
-           !fail(pps_system_find_g(s->system), "step 3, G-factors", problem);
-}
-
-static void note_times(stage *s) {
-    for (int i = 0; s->system && i < 5; i++) {
-        s->seconds[i] = s->system->seconds[i];
-    }
-}
-
-bool stage_light_sky(stage *s, pps_problem *problem) {
-    if (s->system &&
-        fail(pps_system_light_sky(s->system), "step 4, light of the sky", problem)) {
+    begin_step(s, 1);
+    if (fail(pps_system_create(s->scene, &options, &s->system), "the rendering system",
+             problem) ||
+        fail(pps_system_construct_cells(s->system), "step 1, cells", problem)) {
         return false;
     }
-    note_times(s);
-    return stage_light_sun(s, problem);
+    begin_step(s, 2);
+    if (fail(pps_system_map_directions(s->system), "step 2, maps", problem)) {
+        return false;
+    }
+    begin_step(s, 3);
+    return !fail(pps_system_find_g(s->system), "step 3, G-factors", problem);
 }
 
-bool stage_light_sun(stage *s, pps_problem *problem) {
+static bool find_sky(stage *s, pps_problem *problem) {
+    begin_step(s, 4);
+    return !s->system ||
+           !fail(pps_system_light_sky(s->system), "step 4, light of the sky", problem);
+}
+
+static bool find_sun(stage *s, pps_problem *problem) {
     double start = now();
+    begin_step(s, 5);
     pps_status status = s->system ? pps_system_light_sun(s->system) : light_leaves(s);
-    if (!status) {
-        status = stage_fill_light(s);
-    }
     s->seconds[4] = now() - start;
+    return !fail(status, "step 5, light of the sun", problem);
+}
+
+/* Light that was found, into tables, and the sun's maps. */
+static bool upload_light(stage *s, pps_problem *problem) {
+    double start = now();
+    pps_status status = stage_fill_light(s);
+    s->seconds[4] += now() - start;
     start = now();
     if (!status) {
         status = stage_fill_sun(s, s->scene->sun.to, false, &s->sun);
@@ -156,6 +172,42 @@ bool stage_light_sun(stage *s, pps_problem *problem) {
     s->seconds[5] = now() - start;
     return !fail(status, "step 5, light of the sun", problem) &&
            gl_check("the sun's maps", problem);
+}
+
+static void note_times(stage *s) {
+    for (int i = 0; s->system && i < 4; i++) {
+        s->seconds[i] = s->system->seconds[i];
+    }
+}
+
+bool stage_light_sun(stage *s, pps_problem *problem) {
+    return find_sun(s, problem) && upload_light(s, problem);
+}
+
+bool stage_light_sky(stage *s, pps_problem *problem) {
+    if (!find_sky(s, problem)) {
+        return false;
+    }
+    note_times(s);
+    return stage_light_sun(s, problem);
+}
+
+bool stage_prepare(stage *s, pps_problem *problem) {
+    double start = now();
+    begin_step(s, 1);
+    if (!stage_cells_known(s)) {
+        if (fail(prepare_leaves(s), "the light of leaves", problem)) {
+            return false;
+        }
+        s->seconds[0] = now() - start;
+    } else if (!prepare_system(s, problem)) {
+        return false;
+    }
+    if (!find_sky(s, problem)) {
+        return false;
+    }
+    note_times(s);
+    return find_sun(s, problem);
 }
 
 /* ---- life ---- */
@@ -222,32 +274,35 @@ static bool compile_all(stage *s, pps_problem *problem) {
            compile("screen_vert", "sky_frag", &s->sky_program, problem);
 }
 
-static bool open_all(stage *s, pps_problem *problem) {
+bool stage_upload(stage *s, pps_problem *problem) {
+    size_t n_poses = 0;
     glGenVertexArrays(1, &s->empty);
     s->white = plain_texture();
-    if (fail(load_meshes(s), "the plants' meshes", problem) || !prepare(s, problem) ||
-        fail(stage_fill_static(s), "the cells' tables", problem) ||
-        !compile_all(s, problem)) {
-        return false;
-    }
-    size_t n_poses = 0;
-    return !fail(stage_count_poses(s->scene, &n_poses), "the sun's maps", problem) &&
+    return !fail(load_meshes(s), "the plants' meshes", problem) &&
+           !fail(stage_fill_static(s), "the cells' tables", problem) &&
+           compile_all(s, problem) &&
+           !fail(stage_count_poses(s->scene, &n_poses), "the sun's maps", problem) &&
            gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
                            &s->sun.maps, problem) &&
-           stage_light_sky(s, problem) &&
+           upload_light(s, problem) &&
            (!s->scene->ground.present || stage_open_ground(s, problem));
 }
 
-stage *stage_open(pps_scene *scene, const stage_options *options,
-                  pps_problem *problem) {
+stage *stage_create(pps_scene *scene, const stage_options *options,
+                    pps_problem *problem) {
     stage *s = calloc(1, sizeof *s);
-    if (!s) {
-        fail(PPS_ERR_MEMORY, "the scene", problem);
+    if (fail(s ? PPS_OK : PPS_ERR_MEMORY, "the scene", problem)) {
         return NULL;
     }
     s->scene = scene;
     s->options = *options;
-    if (!open_all(s, problem)) {
+    return s;
+}
+
+stage *stage_open(pps_scene *scene, const stage_options *options,
+                  pps_problem *problem) {
+    stage *s = stage_create(scene, options, problem);
+    if (s && !(stage_prepare(s, problem) && stage_upload(s, problem))) {
         stage_close(s);
         return NULL;
     }

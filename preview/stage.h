@@ -4,6 +4,8 @@
 #ifndef PREVIEW_STAGE_H
 #define PREVIEW_STAGE_H
 
+#include <stdatomic.h>
+
 #include <ppscat/tree/picture.h>
 #include <ppscat/tree/system.h>
 
@@ -17,6 +19,13 @@ typedef enum {
     STAGE_MONTE_CARLO
 } stage_way;
 
+/* How far the opening of a stage is, for another thread to look at and to end it. */
+typedef struct {
+    atomic_int step;       /* of the system's, 1 to 5; 0: not begun */
+    atomic_int percent;    /* of a step that counts; -1: it does not */
+    atomic_bool cancelled; /* set it: Monte Carlo ends early, and opening fails */
+} stage_progress;
+
 typedef struct {
     stage_way way;
     const pps_light_model *model; /* of GRID and LEAVES */
@@ -27,6 +36,7 @@ typedef struct {
     int map_texels;   /* of the sun's maps that shaders read */
     uint64_t rays;    /* of MONTE_CARLO, as stage_rays */
     int threads;      /* 0: all cores */
+    stage_progress *progress; /* NULL: nobody looks */
 } stage_options;
 
 typedef enum { SHOW_LIGHT, SHOW_SUN, SHOW_SCATTERED } stage_show;
@@ -76,6 +86,13 @@ bool stage_takes(const pps_scene *scene, const stage_options *options,
 /* Do steps 1 to 5 for a scene, which must outlive the stage. NULL: the problem. */
 stage *stage_open(pps_scene *scene, const stage_options *options, pps_problem *problem);
 void stage_close(stage *s); /* NULL is fine */
+
+/* The same in its parts: make room; all that needs no OpenGL, and may have a thread of its
+ * own; and the rest. A stage whose part has failed is to be closed. */
+stage *stage_create(pps_scene *scene, const stage_options *options,
+                    pps_problem *problem);
+bool stage_prepare(stage *s, pps_problem *problem);
+bool stage_upload(stage *s, pps_problem *problem);
 
 /* After the scene's sun moved, its sky changed, or other sources are asked for. */
 bool stage_light_sun(stage *s, pps_problem *problem);
