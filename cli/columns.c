@@ -65,23 +65,26 @@ static const column table_columns[] = {
     {"column", "string", NULL, "column of the table"},
     {"paper", "double", "1", "the printed figure; empty where there is none"},
     {"ours", "double", "1",
-     "the same measured here: percent in 1, 2, 3, crowns and figure7, frames a second in fps, "
-     "in 4 and 5 as the column says"},
+     "the same measured here: percent in 1, 2, 3, crowns and figure7, frames a second "
+     "in fps, in 4 and 5 as the column says"},
     {"rms_rel", "double", "%",
      "1, 2: mean over angles and depths of the root mean square error / mean exact "
-     "radiance; 3, crowns: the error with every triangle weighing the same; figure7: mean "
-     "|difference| / mean"},
-    {"method", "string", NULL, "name of the method or light model measured; 4, 5: of the processor or of OpenGL's "
-     "renderer that took the time"},
+     "radiance; 3, crowns: the error with every triangle weighing the same; figure7: "
+     "mean |difference| / mean"},
+    {"method", "string", NULL,
+     "name of the method or light model measured; 4, 5, fps: of the processor or of "
+     "OpenGL's renderer that took the time"},
     {"ratio", "double", "1", "3, crowns, figure7: mean of ours / mean of Monte Carlo"},
-    {"spread", "double", "1", "3, crowns, figure7: half the range of `ours` over the seeds"},
+    {"spread", "double", "1",
+     "3, crowns, figure7: half the range of `ours` over the seeds"},
     {"seconds_per_cell", "double", "s",
      "crowns: processor time for a cell with leaves, without what is made once a scene; "
      "differs from run to run"},
     {"rms_leaf", "double", "%",
      "3, crowns: the error with every leaf for itself, less the reference's own noise"},
     {"seconds_per_leaf", "double", "s",
-     "crowns: the same time for a leaf, from no light to the irradiance of its faces"},
+     "crowns: the same time for a leaf, from no light to the irradiance of its faces; "
+     "fps: that time on the clock, or of its attenuations"},
     {0}};
 
 static const column chart_columns[] = {

@@ -2,7 +2,8 @@
  * triangles. Here the processor lights every leaf anew, as it must when sun and sky move,
  * and the preview draws.
  *
- * Attenuations are those of a tree alone, once for all that stand there, as in the paper.
+ * Attenuations are those of a tree alone, found once for all that are turned alike, as the
+ * paper draws one tree many times.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables.h"
@@ -11,7 +12,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli.h"
 #include "preview_bench.h"
@@ -45,8 +45,6 @@ typedef struct {
     output out;
     int threads;
     char processor[80], jobs[16];
-    float *att; /* of one tree, [leaf * PPS_OCTANTS + octant] */
-    size_t n_leaves;
     progress_meter meter;
 } table;
 
@@ -70,22 +68,20 @@ static pps_status time_light(const pps_scene *scene, const float *att, unsigned 
     return status;
 }
 
-/* The attenuations of the tree for all that stand there. */
-static float *spread(const table *t, const pps_scene *scene) {
-    size_t one = PPS_OCTANTS * t->n_leaves;
-    float *att = malloc(PPS_OCTANTS * scene->n_leaves * sizeof *att);
+static pps_status attenuate(const table *t, const pps_scene *scene, float **att) {
+    pps_attenuation_options options = {.threads = t->threads, .apart = true};
 
-    for (size_t i = 0; att && i < scene->n_instances; i++)
-        memcpy(att + i * one, t->att, one * sizeof *att);
-    return att;
+    return pps_leaf_attenuation_create(scene, &options, att);
 }
 
 static int write_lights(table *t, size_t i, const pps_scene *scene) {
-    float *att = spread(t, scene);
+    float *att = NULL;
     pps_irradiance *light = NULL;
-    pps_status status =
-        att ? pps_irradiance_create(scene, false, &light) : PPS_ERR_MEMORY;
+    pps_status status = attenuate(t, scene, &att);
     int rc = CLI_DONE;
+
+    if (!status)
+        status = pps_irradiance_create(scene, false, &light);
 
     for (size_t k = 0; k < N_LIGHTS && !status && rc == CLI_DONE; k++) {
         table_row row = make_row(i, lights[k].name, t->processor);
@@ -105,8 +101,8 @@ static int write_lights(table *t, size_t i, const pps_scene *scene) {
 /* How fast the preview draws them, all light; refused without one. */
 static int write_frames(table *t, size_t i) {
     const char *const arguments[] = {
-        "--model",          "leaf",   "--samples", "1",           "--component",
-        "sky,sun,indirect", "--jobs", t->jobs,     rows[i].scene, NULL};
+        "--model",          "leaf",   "--apart", "--samples",   "1", "--component",
+        "sky,sun,indirect", "--jobs", t->jobs,   rows[i].scene, NULL};
     table_row row = make_row(i, "all, drawn", "leaf");
     preview_times times;
     int rc = preview_bench(arguments, &times, &row.refusal);
@@ -137,21 +133,19 @@ static int write_row(table *t, size_t i) {
 
 /* The part that is done once: what a tree's leaves leave of the light in each octant. */
 static int prepare(table *t) {
-    pps_attenuation_options options = {.threads = t->threads};
     table_row row = make_row(0, "trees prepared a second", t->processor);
     pps_scene *scene = NULL;
+    float *att = NULL;
     pps_status status = pps_scene_read(rows[0].scene, &scene, NULL);
 
     if (!status) {
-        t->n_leaves = scene->n_leaves;
-        t->att = malloc(PPS_OCTANTS * t->n_leaves * sizeof *t->att);
         double start = system_seconds();
-        status =
-            t->att ? pps_leaf_attenuation(scene, &options, t->att) : PPS_ERR_MEMORY;
+        status = attenuate(t, scene, &att);
         double seconds = system_seconds() - start;
         row.ours = 1 / seconds;
-        row.seconds_per_leaf = seconds / (double)t->n_leaves;
+        row.seconds_per_leaf = seconds / (double)scene->n_leaves;
     }
+    free(att);
     pps_scene_free(scene);
     return status ? cli_failed("%s", pps_status_string(status))
                   : table_write(&t->out, &row);
@@ -173,6 +167,5 @@ int table_fps(const invocation *call) {
     for (size_t i = 0; i < N_ROWS && rc == CLI_DONE; i++)
         rc = write_row(&t, i);
     progress_end(&t.meter);
-    free(t.att);
     return output_close(&t.out, rc);
 }

@@ -134,10 +134,8 @@ static pps_status measure_crown(figure *f, const pps_crown *plain, int seed,
 
     crown.seed = f->seed + (uint64_t)seed;
     status = make_scene(&crown, &scene);
-    if (!status) {
-        att = malloc(PPS_OCTANTS * scene->n_leaves * sizeof *att);
-        status = att ? pps_leaf_attenuation(scene, NULL, att) : PPS_ERR_MEMORY;
-    }
+    if (!status)
+        status = pps_leaf_attenuation_create(scene, NULL, &att);
     for (int part = 0; part < N_PARTS && !status; part++) {
         if (system_signal())
             status = PPS_ERR_CANCELLED;

@@ -70,7 +70,14 @@ static int check_compensation(const invocation *call, const tree_asked *asked) {
 static tree_method choice[NAMES_MAX];
 
 static size_t fill_choices(void) {
-    static const char *const factors[] = {"derived", "printed"};
+    static const struct {
+        const char *name;
+        pps_compensation form;
+    } factor[] = {
+#define ROW(name, form) {name, form},
+        PPS_COMPENSATION_LIST(ROW)
+#undef ROW
+    };
     size_t n = 0;
 
     while (n < tree_method_count()) {
@@ -78,11 +85,11 @@ static size_t fill_choices(void) {
         n++;
     }
     for (size_t i = 0; i < tree_method_count(); i++) {
-        for (int k = 0; k < 2 && choice[i].compensates && n < NAMES_MAX; k++, n++) {
+        for (int k = 1; k < 3 && choice[i].compensates && n < NAMES_MAX; k++, n++) {
             choice[n] = choice[i];
-            choice[n].compensate = PPS_COMPENSATE_DERIVED + (unsigned)k;
+            choice[n].compensate = factor[k].form;
             snprintf(choice[n].name, sizeof choice[n].name, "%s+%s",
-                     choice[i].model->name, factors[k]);
+                     choice[i].model->name, factor[k].name);
         }
     }
     return n;
@@ -167,19 +174,9 @@ static pps_status need_cells(tree_work *work) {
 
 static pps_status need_attenuations(tree_work *work) {
     pps_attenuation_options options = {.threads = work->settings->threads};
-    float *att = work->att;
-    pps_status status = PPS_OK;
 
-    if (!att) {
-        att = malloc((PPS_OCTANTS * work->scene->n_leaves + 1) * sizeof *att);
-        status =
-            att ? pps_leaf_attenuation(work->scene, &options, att) : PPS_ERR_MEMORY;
-        if (status)
-            free(att);
-        else
-            work->att = att;
-    }
-    return status;
+    return work->att ? PPS_OK
+                     : pps_leaf_attenuation_create(work->scene, &options, &work->att);
 }
 
 static pps_status run_model(tree_work *work, const tree_method *method,

@@ -29,10 +29,11 @@ typedef struct {
     double range[2];
 } picture_wish;
 
-/* Draw every model's answer to every component: one as it is, several as a sheet, models
- * down and components across, or the models across where there is one component. All are
- * exposed, or coloured, alike; those that are split are alike among themselves. Writes the file. CLI_REFUSED when panels are blank for a
- * model does not know a component; CLI_USAGE when nothing can be shown. */
+/* Draw every model's answer to every component, and write the file: one as it is, several
+ * as a sheet, models down and components across, or the models across where there is one
+ * component. All are exposed, or coloured, alike; those that are split are so among
+ * themselves. CLI_REFUSED: some panels are blank, for a model does not know a component;
+ * CLI_USAGE: nothing can be shown. */
 int tree_panels_draw(picture_wish *wish, tree_work *work, const tree_asked *asked);
 
 /* Panels of this width across and down: a row that is too wide for screens is folded. */

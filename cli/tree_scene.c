@@ -12,16 +12,11 @@
 static const double DEGREE = 3.14159265358979323846 / 180;
 
 const tree_component tree_components[TREE_COMPONENTS_SPLIT] = {
-    {"all", PPS_ALL_LIGHT, false},
-    {"sun", PPS_SUN, false},
-    {"indirect", PPS_SUN_INDIRECT, false},
-    {"sky", PPS_SKY, false},
-    {"sky-indirect", PPS_SKY_INDIRECT, false},
-    {"all+split", PPS_ALL_LIGHT, true},
-    {"sun+split", PPS_SUN, true},
-    {"indirect+split", PPS_SUN_INDIRECT, true},
-    {"sky+split", PPS_SKY, true},
-    {"sky-indirect+split", PPS_SKY_INDIRECT, true},
+#define PLAIN(name, sources) {name, sources, false},
+#define SPLIT(name, sources) {name "+split", sources, true},
+    PPS_LIGHT_COMPONENT_LIST(PLAIN) PPS_LIGHT_COMPONENT_LIST(SPLIT)
+#undef PLAIN
+#undef SPLIT
 };
 
 static int read_bounces(const invocation *call, int *out) {

@@ -2,8 +2,8 @@
  *
  * Gauss-Legendre by Newton's method in theta, x = cos theta, made cubic by Legendre's
  * equation, with the recurrence in differences and u = 1 - x, so that the nodes next to the
- * edges keep full relative accuracy. (GSL's table computes sizes that it has not stored to 1e-10 only, which shows
- * in the answers at 88 streams and not at 64.)
+ * edges keep full relative accuracy. (GSL's table computes sizes that it has not stored to
+ * 1e-10 only, which shows in the answers at 88 streams and not at 64.)
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/quadrature.h"

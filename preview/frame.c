@@ -4,8 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/frame.h"
 
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
 
 static GLuint make_buffer(int samples, GLenum format, int width, int height,
                           GLenum attachment) {
@@ -21,9 +20,9 @@ static GLuint make_buffer(int samples, GLenum format, int width, int height,
 bool frame_create(int width, int height, int samples, frame *out,
                   pps_problem *problem) {
     GLint most = 1;
-    *out = (frame){.width = width, .height = height};
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     samples = samples < most ? samples : most;
+    *out = (frame){.width = width, .height = height, .samples = samples};
     GLenum format = samples > 1 ? GL_RGBA16F : GL_RGBA32F;
     glGenFramebuffers(1, &out->drawn);
     glBindFramebuffer(GL_FRAMEBUFFER, out->drawn);
@@ -46,7 +45,9 @@ bool frame_create(int width, int height, int samples, frame *out,
            gl_check("the picture", problem);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (!good) {
-        strcpy(problem->text, "OpenGL has no pictures of this size and depth");
+        snprintf(problem->text, sizeof problem->text,
+                 "OpenGL cannot make a picture of %dx%d pixels, %d samples each", width,
+                 height, samples);
         frame_free(out);
     }
     return good;
@@ -73,17 +74,17 @@ void frame_finish(const frame *f) {
 
 void frame_read(const frame *f, pps_picture *out) {
     size_t row = 3 * (size_t)f->width;
-    float *swap = malloc(row * sizeof *swap + 1);
     glBindFramebuffer(GL_FRAMEBUFFER, f->shown);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, f->width, f->height, GL_RGB, GL_FLOAT, out->rgb);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    for (int y = 0; swap && y < f->height / 2; y++) { /* pictures run from the top */
+    for (int y = 0; y < f->height / 2; y++) { /* pictures run from the top */
         float *a = out->rgb + row * (size_t)y,
               *b = out->rgb + row * (size_t)(f->height - 1 - y);
-        memcpy(swap, a, row * sizeof *swap);
-        memcpy(a, b, row * sizeof *swap);
-        memcpy(b, swap, row * sizeof *swap);
+        for (size_t i = 0; i < row; i++) {
+            float swap = a[i];
+            a[i] = b[i];
+            b[i] = swap;
+        }
     }
-    free(swap);
 }

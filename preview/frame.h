@@ -9,7 +9,7 @@
 #include "preview/gl.h"
 
 typedef struct {
-    int width, height;
+    int width, height, samples; /* samples: as many as there are */
     GLuint drawn, color, depth; /* what is drawn into, of many samples */
     GLuint shown, texture;      /* their means */
 } frame;

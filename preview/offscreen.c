@@ -18,9 +18,10 @@ int offscreen_run(const preview_options *options, offscreen_work *work,
     if (!scene) {
         return EXIT_USAGE;
     }
-    pps_scene_free(scene);
     headless *context = headless_open(problem);
-    if (context && pair_open(options, &pair, &rc, problem)) {
+    if (!context) {
+        pps_scene_free(scene);
+    } else if (pair_open(scene, options, &pair, problem)) {
         if (leaves_too_large(pair.of[0], warning, sizeof warning)) {
             fprintf(stderr, "ppscat-preview: %s\n", warning);
         }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { SIZE_LEAST = 16, SIZE_MOST = 8192, THREADS_MOST = 4096 };
@@ -25,6 +26,32 @@ const preview_option options_table[] = {
 #include "preview/options.def"
 #undef OPTION
     {NULL, NULL, NULL}};
+
+/* ---- words ---- */
+
+#define ROW(name, value) {name, value},
+const option_word component_words[] = {PPS_LIGHT_COMPONENT_LIST(ROW){NULL, 0}};
+const option_word compensation_words[] = {PPS_COMPENSATION_LIST(ROW){NULL, 0}};
+#undef ROW
+const option_word show_words[] = {
+    {"light", SHOW_LIGHT}, {"sun", SHOW_SUN}, {"scattered", SHOW_SCATTERED}, {NULL, 0}};
+const option_word scattered_words[] = {{"pixel", true}, {"cell", false}, {NULL, 0}};
+
+size_t words_count(const option_word *table) {
+    size_t n = 0;
+    while (table[n].word) {
+        n++;
+    }
+    return n;
+}
+
+size_t words_find(const option_word *table, unsigned value) {
+    size_t i = 0;
+    while (table[i].word && table[i].value != value) {
+        i++;
+    }
+    return i;
+}
 
 /* ---- help ---- */
 
@@ -89,14 +116,58 @@ static bool read_pair(const char *text, double out[2]) {
     return end != comma + 1 && !*end && isfinite(out[0]) && isfinite(out[1]);
 }
 
-/* Which of the words; -1: none. */
-static int read_word(const char *text, const char *const *word, int n) {
-    for (int i = 0; i < n; i++) {
-        if (strcmp(text, word[i]) == 0) {
-            return i;
+/* What the first `length` characters stand for; NULL: they are no word of the table. */
+static const option_word *find_word(const option_word *table, const char *text,
+                                    size_t length) {
+    for (; table->word; table++) {
+        if (strlen(table->word) == length && memcmp(table->word, text, length) == 0) {
+            return table;
         }
     }
-    return -1;
+    return NULL;
+}
+
+static bool refuse_word(pps_problem *problem, const char *option, const char *text,
+                        const option_word *table, const char *also) {
+    char allowed[200];
+    size_t used = 0;
+    for (const option_word *row = table; row->word && used < sizeof allowed; row++) {
+        used += (size_t)snprintf(allowed + used, sizeof allowed - used, "%s%s",
+                                 row == table ? "" : ", ", row->word);
+    }
+    if (used < sizeof allowed) {
+        snprintf(allowed + used, sizeof allowed - used, "%s", also);
+    }
+    return refuse(problem, option, text, allowed);
+}
+
+static bool read_word(const char *option, const char *text, const option_word *table,
+                      unsigned *out, pps_problem *problem) {
+    const option_word *row = find_word(table, text, strlen(text));
+    if (!row) {
+        return refuse_word(problem, option, text, table, "");
+    }
+    *out = row->value;
+    return true;
+}
+
+/* Some words, with commas between them: all that they stand for. */
+static bool read_words(const char *option, const char *text, const option_word *table,
+                       unsigned *out, pps_problem *problem) {
+    const char *at = text;
+    for (*out = 0;; at++) {
+        size_t length = strcspn(at, ",");
+        const option_word *row = find_word(table, at, length);
+        if (!row) {
+            return refuse_word(problem, option, text, table,
+                               ", with commas between them");
+        }
+        *out |= row->value;
+        at += length;
+        if (!*at) {
+            return true;
+        }
+    }
 }
 
 /* A model that needs cells and has no field of them is none for the stage. */
@@ -135,6 +206,11 @@ const char *options_model_name(const stage_options *o) {
                                          : o->model->name;
 }
 
+bool options_lit(const stage_options *o) {
+    bool all = o->way == STAGE_INSTANCES || o->way == STAGE_MONTE_CARLO;
+    return all || o->sources & o->model->sources;
+}
+
 void options_model_names(char *out, size_t size) {
     size_t used = 0;
     for (size_t i = 0; i < pps_light_model_count() && used < size; i++) {
@@ -145,31 +221,6 @@ void options_model_names(char *out, size_t size) {
     }
     if (used < size) {
         snprintf(out + used, size - used, "sppg, mc");
-    }
-}
-
-static bool read_components(const char *text, unsigned *out) {
-    static const char *const word[] = {"all", "sun", "indirect", "sky", "sky-indirect"};
-    static const unsigned bit[] = {PPS_ALL_LIGHT, PPS_SUN, PPS_SUN_INDIRECT, PPS_SKY,
-                                   PPS_SKY_INDIRECT};
-    *out = 0;
-    for (;;) {
-        char one[16];
-        size_t length = strcspn(text, ",");
-        if (length >= sizeof one) {
-            return false;
-        }
-        memcpy(one, text, length);
-        one[length] = '\0';
-        int k = read_word(one, word, 5);
-        if (k < 0) {
-            return false;
-        }
-        *out |= bit[k];
-        if (!text[length]) {
-            return true;
-        }
-        text += length + 1;
     }
 }
 
@@ -194,9 +245,12 @@ static bool read_snapshot(const char *text, preview_options *o, pps_problem *pro
     const char *slash = strrchr(text, '/');
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - text) + 1 : 1,
              slash ? text : ".");
-    if (access(folder, W_OK) != 0) { /* known before anything is drawn */
+    struct stat about;
+    bool is_folder = stat(text, &about) == 0 && S_ISDIR(about.st_mode);
+    if (is_folder || access(folder, W_OK) != 0) { /* known before anything is drawn */
         snprintf(problem->text, sizeof problem->text,
-                 "--snapshot: cannot write '%.200s': %s", text, strerror(errno));
+                 "--snapshot: cannot write '%.200s': %s", text,
+                 strerror(is_folder ? EISDIR : errno));
         return false;
     }
     o->snapshot = text;
@@ -204,11 +258,17 @@ static bool read_snapshot(const char *text, preview_options *o, pps_problem *pro
 }
 
 static bool read_size(const char *text, preview_options *o, pps_problem *problem) {
-    char end;
-    return (sscanf(text, "%5dx%5d%c", &o->width, &o->height, &end) == 2 &&
-            o->width >= SIZE_LEAST && o->width <= SIZE_MOST &&
-            o->height >= SIZE_LEAST && o->height <= SIZE_MOST) ||
-           refuse(problem, "size", text, "WIDTHxHEIGHT, 16 to 8192 pixels each");
+    char width[8];
+    size_t length = strcspn(text, "x");
+    long long n[2];
+    snprintf(width, sizeof width, "%.*s", (int)(length < 7 ? length : 7), text);
+    if (!text[length] || !read_whole(width, SIZE_LEAST, SIZE_MOST, &n[0]) ||
+        !read_whole(text + length + 1, SIZE_LEAST, SIZE_MOST, &n[1])) {
+        return refuse(problem, "size", text, "WIDTHxHEIGHT, 16 to 8192 pixels each");
+    }
+    o->width = (int)n[0];
+    o->height = (int)n[1];
+    return true;
 }
 
 static bool read_model(const char *option, const char *text, stage_options *out,
@@ -281,31 +341,32 @@ static bool read_exposure(const char *text, preview_options *o, pps_problem *pro
            refuse(problem, "exposure", text, "a number above 0");
 }
 
-static bool read_number(int id, const char *text, preview_options *o,
+static bool read_choice(int id, const char *text, preview_options *o,
                         pps_problem *problem) {
-    static const char *const forms[] = {"none", "derived", "printed"};
-    static const char *const scattered[] = {"pixel", "cell"};
-    static const char *const shows[] = {"light", "sun", "scattered"};
-    long long n = 0;
-    int k;
+    const char *name = options_table[id].name;
+    unsigned value = 0;
+    bool good;
     switch (id) {
     case COMPENSATE:
-        k = read_word(text, forms, 3);
-        o->stage.compensate = (pps_compensation)k;
-        return k >= 0 || refuse(problem, "compensate", text, "none, derived, printed");
+        good = read_word(name, text, compensation_words, &value, problem);
+        o->stage.compensate = (pps_compensation)value;
+        break;
     case SHOW:
-        k = read_word(text, shows, 3);
-        o->look.show = (stage_show)k;
-        return k >= 0 || refuse(problem, "show", text, "light, sun, scattered");
-    case SCATTERED:
-        k = read_word(text, scattered, 2);
-        o->stage.by_point = k == 0;
-        return k >= 0 || refuse(problem, "scattered", text, "pixel, cell");
-    case COMPONENT:
-        return read_components(text, &o->stage.sources) ||
-               refuse(
-                   problem, "component", text,
-                   "all, sun, indirect, sky, sky-indirect, with commas between them");
+        good = read_word(name, text, show_words, &value, problem);
+        o->look.show = (stage_show)value;
+        break;
+    default:
+        good = read_word(name, text, scattered_words, &value, problem);
+        o->stage.by_point = value;
+        break;
+    }
+    return good;
+}
+
+static bool read_number(int id, const char *text, preview_options *o,
+                        pps_problem *problem) {
+    long long n = 0;
+    switch (id) {
     case SAMPLES:
         o->samples = (int)(read_whole(text, 1, 8, &n) ? n : 0);
         return o->samples ||
@@ -333,6 +394,9 @@ static bool read_one(int id, const char *text, preview_options *o,
     case BENCH:
         o->bench = true;
         return true;
+    case APART:
+        o->stage.apart = true;
+        return true;
     case HELP:
         o->help = true;
         return true;
@@ -344,6 +408,13 @@ static bool read_one(int id, const char *text, preview_options *o,
     case SPLIT:
         o->split = true;
         return read_model("split", text, &o->second, problem);
+    case COMPENSATE:
+    case SHOW:
+    case SCATTERED:
+        return read_choice(id, text, o, problem);
+    case COMPONENT:
+        return read_words("component", text, component_words, &o->stage.sources,
+                          problem);
     case ALBEDO:
         return read_albedo(text, o, problem);
     case SUN:
@@ -378,6 +449,17 @@ static bool check(const preview_options *o, bool compensate_given, const char *m
                  "--compensate: the model %s takes no G-factor", model);
         return false;
     }
+    if (!options_lit(s) && !(o->split && options_lit(&o->second))) {
+        snprintf(problem->text, sizeof problem->text,
+                 "--component: the model %s knows none of this light", model);
+        return false;
+    }
+    if (s->apart && s->way != STAGE_LEAVES &&
+        !(o->split && o->second.way == STAGE_LEAVES)) {
+        snprintf(problem->text, sizeof problem->text,
+                 "--apart: it is for the model leaf; this is %s", model);
+        return false;
+    }
     if (o->bench && o->snapshot) {
         strcpy(problem->text, "--bench and --snapshot: one of them at a time");
         return false;
@@ -398,7 +480,7 @@ bool options_read(int argc, char **argv, preview_options *out, pps_problem *prob
         .height = 720,
         .samples = 4,
         .view = {-60, 10},
-        .exposure = 1,
+        .exposure = 1.5,
         .zoom = 1,
         .latitude = 50,
         .albedo = {NAN, NAN, NAN, NAN},

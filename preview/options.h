@@ -35,6 +35,20 @@ typedef struct {
 } preview_option;
 extern const preview_option options_table[];
 
+/* Words that options and settings share, and what they stand for; a table ends with a row
+ * without a word. */
+typedef struct {
+    const char *word;
+    unsigned value; /* of the enumeration, or sources */
+} option_word;
+extern const option_word component_words[], compensation_words[], show_words[],
+    scattered_words[];
+
+size_t words_count(const option_word *table);
+
+/* The row that has the value; words_count() if there is none. */
+size_t words_find(const option_word *table, unsigned value);
+
 /* False, with one line that names option, value and what is allowed. */
 bool options_read(int argc, char **argv, preview_options *out, pps_problem *problem);
 
@@ -44,6 +58,9 @@ void options_help(FILE *out);
 /* "lattice", "leaf", ..., "sppg" or "mc"; false: none of these. */
 bool options_model(const char *name, stage_options *out);
 const char *options_model_name(const stage_options *o);
+
+/* Whether the model knows any of the light asked for. */
+bool options_lit(const stage_options *o);
 
 /* The names that options_model knows, with commas between them. */
 void options_model_names(char *out, size_t size);

@@ -1,32 +1,43 @@
-/* Two stages of one scene each their own, for their light differs.
+/* A scene, and a stage for each model that lights it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "preview/pair.h"
 
-#include "preview/stage_open.h"
-
-bool pair_open(const preview_options *options, stage_pair *out, int *rc,
-               pps_problem *problem) {
-    *out = (stage_pair){{NULL, NULL}};
-    for (int i = 0; i < (options->split ? 2 : 1); i++) {
-        pps_scene *scene = scene_for(options, problem);
-        *rc = scene ? EXIT_FAILED : EXIT_USAGE;
-        out->of[i] =
-            scene ? stage_open(scene, i ? &options->second : &options->stage, problem)
-                  : NULL;
-        if (!out->of[i]) {
-            pair_close(out);
-            return false;
-        }
+bool pair_create(pps_scene *scene, const preview_options *options, stage_pair *out,
+                 pps_problem *problem) {
+    *out = (stage_pair){scene, {NULL, NULL}};
+    out->of[0] = stage_create(scene, &options->stage, problem);
+    if (options->split) {
+        out->of[1] = stage_create(scene, &options->second, problem);
     }
-    return true;
+    return out->of[0] && (out->of[1] || !options->split);
+}
+
+bool pair_prepare(const stage_pair *pair, pps_problem *problem) {
+    return stage_prepare(pair->of[0], problem) &&
+           (!pair->of[1] || stage_prepare(pair->of[1], problem));
+}
+
+bool pair_upload(const stage_pair *pair, pps_problem *problem) {
+    return stage_upload(pair->of[0], problem) &&
+           (!pair->of[1] || stage_upload(pair->of[1], problem));
+}
+
+bool pair_open(pps_scene *scene, const preview_options *options, stage_pair *out,
+               pps_problem *problem) {
+    if (pair_create(scene, options, out, problem) && pair_prepare(out, problem) &&
+        pair_upload(out, problem)) {
+        return true;
+    }
+    pair_close(out);
+    return false;
 }
 
 void pair_close(stage_pair *pair) {
-    for (int i = 0; i < 2; i++) {
-        stage_close(pair->of[i]);
-        pair->of[i] = NULL;
-    }
+    stage_close(pair->of[0]);
+    stage_close(pair->of[1]);
+    pps_scene_free(pair->scene);
+    *pair = (stage_pair){NULL, {NULL, NULL}};
 }
 
 void pair_draw(const stage_pair *pair, int at, const pps_camera *camera, int width,

@@ -14,6 +14,20 @@
 
 static const double DEGREE_STEP = 5, HOUR_STEP = 0.25, ALBEDO_STEP = 0.05;
 
+/* ---- words ---- */
+
+/* Of a value that no word stands for, as sources that the command line has put together. */
+static const char *word_of(const option_word *table, unsigned value) {
+    const char *word = table[words_find(table, value)].word;
+    return word ? word : "some parts";
+}
+
+/* The value of the next word, round the table; the first after a value without a word. */
+static unsigned next_word(const option_word *table, unsigned value, int step) {
+    size_t n = words_count(table), at = words_find(table, value);
+    return table[at < n ? (at + n + (size_t)step) % n : 0].value;
+}
+
 /* ---- models ---- */
 
 enum { NOT_SPLIT = -1 };
@@ -87,14 +101,15 @@ static setting_effect change_g(settings *s, int step) {
                  options_model_name(o));
         return EFFECT_DRAW;
     }
-    o->compensate = (pps_compensation)(((int)o->compensate + 3 + step) % 3);
+    o->compensate =
+        (pps_compensation)next_word(compensation_words, o->compensate, step);
     return EFFECT_OPEN;
 }
 
 static void write_g(const settings *s, char *out, size_t size) {
-    static const char *const form[] = {"none", "derived", "printed"};
+    const stage_options *o = &s->options.stage;
     snprintf(out, size, "%s",
-             takes_g(&s->options.stage) ? form[s->options.stage.compensate] : "-");
+             takes_g(o) ? word_of(compensation_words, o->compensate) : "-");
 }
 
 static setting_effect change_scattered(settings *s, int step) {
@@ -105,35 +120,23 @@ static setting_effect change_scattered(settings *s, int step) {
 }
 
 static void write_scattered(const settings *s, char *out, size_t size) {
-    snprintf(out, size, "by %s", s->options.stage.by_point ? "pixel" : "cell");
+    snprintf(out, size, "by %s", word_of(scattered_words, s->options.stage.by_point));
 }
 
 /* ---- light ---- */
 
-static const unsigned component[] = {PPS_ALL_LIGHT, PPS_SUN, PPS_SUN_INDIRECT, PPS_SKY,
-                                     PPS_SKY_INDIRECT};
-enum { N_COMPONENTS = sizeof component / sizeof *component };
-
-static int component_of(const settings *s) {
-    for (int i = 0; i < N_COMPONENTS; i++) {
-        if (component[i] == s->options.stage.sources) {
-            return i;
-        }
-    }
-    return N_COMPONENTS;
-}
-
 static setting_effect change_component(settings *s, int step) {
-    int n = N_COMPONENTS, at = component_of(s);
-    at = at < n ? (at + n + step) % n : 0;
-    s->options.stage.sources = s->options.second.sources = component[at];
+    unsigned next = next_word(component_words, s->options.stage.sources, step);
+    s->options.stage.sources = s->options.second.sources = next;
+    if (!options_lit(&s->options.stage)) {
+        snprintf(s->note, sizeof s->note, "%s knows none of this light",
+                 options_model_name(&s->options.stage));
+    }
     return EFFECT_SUN;
 }
 
 static void write_component(const settings *s, char *out, size_t size) {
-    static const char *const name[] = {"all", "sun",          "sun indirect",
-                                       "sky", "sky indirect", "some parts"};
-    snprintf(out, size, "%s", name[component_of(s)]);
+    snprintf(out, size, "%s", word_of(component_words, s->options.stage.sources));
 }
 
 static setting_effect change_albedo(settings *s, int band, int step) {
@@ -218,13 +221,13 @@ static void write_exposure(const settings *s, char *out, size_t size) {
 }
 
 static setting_effect change_show(settings *s, int step) {
-    s->options.look.show = (stage_show)(((int)s->options.look.show + 3 + step) % 3);
+    s->options.look.show =
+        (stage_show)next_word(show_words, s->options.look.show, step);
     return EFFECT_DRAW;
 }
 
 static void write_show(const settings *s, char *out, size_t size) {
-    static const char *const name[] = {"off", "the sun's share", "scattered light"};
-    snprintf(out, size, "%s", name[s->options.look.show]);
+    snprintf(out, size, "%s", word_of(show_words, s->options.look.show));
 }
 
 static setting_effect change_detail(settings *s, int step) {
@@ -281,7 +284,8 @@ const setting settings_table[] = {
      "degrees above the horizon", write_elevation, change_elevation},
     {"[ ]", GLFW_KEY_RIGHT_BRACKET, GLFW_KEY_LEFT_BRACKET, "exposure",
      "times that of a white plane under the sky", write_exposure, change_exposure},
-    {"f F", KEY(F), "false colour", "the sun's share, or scattered light", write_show,
+    {"f F", KEY(F), "show",
+     "light, or in false colour the sun's share or what is scattered", write_show,
      change_show},
     {"d D", KEY(D), "detail", "fewer leaves where they are smaller than this",
      write_detail, change_detail},

@@ -4,6 +4,7 @@
 #include "preview/snapshot.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "preview/frame.h"
@@ -14,6 +15,13 @@ static void zoom_in(pps_camera *camera, double zoom) {
     const double degree = 3.14159265358979323846 / 180;
     camera->field_of_view =
         2 * atan(tan(camera->field_of_view / 2 * degree) / zoom) / degree;
+}
+
+static void find_camera(const pps_scene *scene, const preview_options *options,
+                        pps_camera *camera) {
+    pps_camera_fit(scene, options->view[0], options->view[1],
+                   (double)options->width / options->height, camera);
+    zoom_in(camera, options->zoom);
 }
 
 static pps_picture *draw(const stage_pair *pair, const preview_options *options,
@@ -29,9 +37,7 @@ static pps_picture *draw(const stage_pair *pair, const preview_options *options,
         pps_picture_free(picture);
         return NULL;
     }
-    pps_camera_fit(pair->of[0]->scene, options->view[0], options->view[1],
-                   (double)options->width / options->height, &camera);
-    zoom_in(&camera, options->zoom);
+    find_camera(pair->scene, options, &camera);
     frame_begin(&f);
     pair_draw(pair, options->width / 2, &camera, options->width, options->height,
               &options->look);
@@ -47,12 +53,20 @@ static pps_picture *draw(const stage_pair *pair, const preview_options *options,
 
 pps_picture *snapshot_draw(stage *s, const preview_options *options,
                            pps_problem *problem) {
-    stage_pair alone = {{s, NULL}};
+    stage_pair alone = {s->scene, {s, NULL}};
     return draw(&alone, options, problem);
 }
 
 static int draw_and_write(const stage_pair *pair, const preview_options *options,
                           pps_problem *problem) {
+    pps_camera camera;
+    find_camera(pair->scene, options, &camera);
+    if (pair->scene->ground.present && camera.eye[2] <= pair->scene->ground.height) {
+        snprintf(problem->text, sizeof problem->text,
+                 "--view: from an elevation of %g the ground hides all",
+                 options->view[1]);
+        return EXIT_USAGE;
+    }
     pps_picture *picture = draw(pair, options, problem);
     if (!picture) {
         return EXIT_FAILED;

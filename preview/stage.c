@@ -47,6 +47,22 @@ uint64_t stage_rays(const pps_scene *scene, uint64_t asked) {
     return asked ? asked : enough > LEAST ? enough : LEAST;
 }
 
+/* ---- progress ---- */
+
+static void begin_step(const stage *s, int step) {
+    stage_progress *progress = s->options.progress;
+    if (progress) {
+        atomic_store(&progress->percent, -1);
+        atomic_store(&progress->step, step);
+    }
+}
+
+static bool keep_going(void *user, uint64_t done, uint64_t total) {
+    stage_progress *progress = user;
+    atomic_store(&progress->percent, (int)(100 * done / total));
+    return !atomic_load(&progress->cancelled);
+}
+
 /* ---- light of leaves ---- */
 
 static pps_status light_leaves(stage *s) {
@@ -55,7 +71,9 @@ static pps_status light_leaves(stage *s) {
     if (s->options.way == STAGE_MONTE_CARLO) {
         pps_trace_options trace = {.rays = stage_rays(s->scene, s->options.rays),
                                    .sources = s->options.sources,
-                                   .threads = s->options.threads};
+                                   .threads = s->options.threads,
+                                   .progress = s->options.progress ? keep_going : NULL,
+                                   .user = s->options.progress};
         status = pps_trace_light(s->scene, &trace, &light, NULL);
     } else {
         status = pps_irradiance_create(s->scene, false, &light);
@@ -78,57 +96,74 @@ static pps_status prepare_leaves(stage *s) {
     if (s->options.way != STAGE_LEAVES) {
         return PPS_OK;
     }
-    pps_attenuation_options options = {.threads = s->options.threads};
-    s->attenuation =
-        malloc((PPS_OCTANTS * s->scene->n_leaves + 1) * sizeof *s->attenuation);
-    return s->attenuation ? pps_leaf_attenuation(s->scene, &options, s->attenuation)
-                          : PPS_ERR_MEMORY;
+    pps_attenuation_options options = {.threads = s->options.threads,
+                                       .apart = s->options.apart};
+    return pps_leaf_attenuation_create(s->scene, &options, &s->attenuation);
 }
 
 /* ---- steps ---- */
 
-static bool prepare(stage *s, pps_problem *problem) {
-    double start = now();
-    if (!stage_cells_known(s)) {
-        bool failed = fail(prepare_leaves(s), "the light of leaves", problem);
-        s->seconds[0] = now() - start;
-        return !failed;
-    }
-    pps_system_options options = {
-        .way = s->options.way == STAGE_GRID ? PPS_SYSTEM_GRID : PPS_SYSTEM_INSTANCES,
-        .by_point = s->options.by_point,
-        .threads = s->options.threads};
-    options.model = s->options.way == STAGE_GRID ? s->options.model : NULL;
-    options.light.compensate = s->options.compensate;
-    return !fail(pps_system_create(s->scene, &options, &s->system),
-                 "the rendering system", problem) &&
-           !fail(pps_system_construct_cells(s->system), "step 1, cells", problem) &&
-           !fail(pps_system_map_directions(s->system), "step 2, maps", problem) &&
-           !fail(pps_system_find_g(s->system), "step 3, G-factors", problem);
+static pps_system_options system_options(const stage_options *o) {
+    pps_system_options options = {.way = o->way == STAGE_GRID ? PPS_SYSTEM_GRID
+                                                              : PPS_SYSTEM_INSTANCES,
+                                  .model = o->way == STAGE_GRID ? o->model : NULL,
+                                  .by_point = o->by_point,
+                                  .threads = o->threads};
+    options.light.compensate = o->compensate;
+    return options;
 }
 
-static void note_times(stage *s) {
-    for (int i = 0; s->system && i < 5; i++) {
-        s->seconds[i] = s->system->seconds[i];
+bool stage_takes(const pps_scene *scene, const stage_options *options,
+                 pps_problem *problem) {
+    if (options->way != STAGE_INSTANCES) {
+        return true;
     }
+    pps_system_options wish = system_options(options);
+    pps_system *system;
+    pps_status status = pps_system_create(scene, &wish, &system);
+    pps_system_free(system);
+    if (status == PPS_ERR_UNSUPPORTED) {
+        strcpy(problem->text, "the model sppg takes scenes that do not repeat, of "
+                              "plants turned by multiples of 72 degrees");
+    }
+    return status != PPS_ERR_UNSUPPORTED;
 }
 
-bool stage_light_sky(stage *s, pps_problem *problem) {
-    if (s->system &&
-        fail(pps_system_light_sky(s->system), "step 4, light of the sky", problem)) {
+static bool prepare_system(stage *s, pps_problem *problem) {
+    pps_system_options options = system_options(&s->options);
+    begin_step(s, 1);
+    if (fail(pps_system_create(s->scene, &options, &s->system), "the rendering system",
+             problem) ||
+        fail(pps_system_construct_cells(s->system), "step 1, cells", problem)) {
         return false;
     }
-    note_times(s);
-    return stage_light_sun(s, problem);
+    begin_step(s, 2);
+    if (fail(pps_system_map_directions(s->system), "step 2, maps", problem)) {
+        return false;
+    }
+    begin_step(s, 3);
+    return !fail(pps_system_find_g(s->system), "step 3, G-factors", problem);
 }
 
-bool stage_light_sun(stage *s, pps_problem *problem) {
+static bool find_sky(stage *s, pps_problem *problem) {
+    begin_step(s, 4);
+    return !s->system ||
+           !fail(pps_system_light_sky(s->system), "step 4, light of the sky", problem);
+}
+
+static bool find_sun(stage *s, pps_problem *problem) {
     double start = now();
+    begin_step(s, 5);
     pps_status status = s->system ? pps_system_light_sun(s->system) : light_leaves(s);
-    if (!status) {
-        status = stage_fill_light(s);
-    }
     s->seconds[4] = now() - start;
+    return !fail(status, "step 5, light of the sun", problem);
+}
+
+/* Light that was found, into tables, and the sun's maps. */
+static bool upload_light(stage *s, pps_problem *problem) {
+    double start = now();
+    pps_status status = stage_fill_light(s);
+    s->seconds[4] += now() - start;
     start = now();
     if (!status) {
         status = stage_fill_sun(s, s->scene->sun.to, false, &s->sun);
@@ -137,6 +172,42 @@ bool stage_light_sun(stage *s, pps_problem *problem) {
     s->seconds[5] = now() - start;
     return !fail(status, "step 5, light of the sun", problem) &&
            gl_check("the sun's maps", problem);
+}
+
+static void note_times(stage *s) {
+    for (int i = 0; s->system && i < 4; i++) {
+        s->seconds[i] = s->system->seconds[i];
+    }
+}
+
+bool stage_light_sun(stage *s, pps_problem *problem) {
+    return find_sun(s, problem) && upload_light(s, problem);
+}
+
+bool stage_light_sky(stage *s, pps_problem *problem) {
+    if (!find_sky(s, problem)) {
+        return false;
+    }
+    note_times(s);
+    return stage_light_sun(s, problem);
+}
+
+bool stage_prepare(stage *s, pps_problem *problem) {
+    double start = now();
+    begin_step(s, 1);
+    if (!stage_cells_known(s)) {
+        if (fail(prepare_leaves(s), "the light of leaves", problem)) {
+            return false;
+        }
+        s->seconds[0] = now() - start;
+    } else if (!prepare_system(s, problem)) {
+        return false;
+    }
+    if (!find_sky(s, problem)) {
+        return false;
+    }
+    note_times(s);
+    return find_sun(s, problem);
 }
 
 /* ---- life ---- */
@@ -185,53 +256,53 @@ static pps_status load_meshes(stage *s) {
     return status;
 }
 
+static bool compile(const char *vertex, const char *fragment, GLuint *out,
+                    pps_problem *problem) {
+    *out = gl_program(vertex, fragment, problem);
+    return *out != 0;
+}
+
 static bool compile_all(stage *s, pps_problem *problem) {
     bool counts = stage_counts(s);
-    s->depth_program = gl_program("plant_vert", "depth_frag", problem);
-    s->plant_program =
-        s->depth_program
-            ? gl_program("plant_vert",
-                         counts ? "by_count+sun+spp+leaf_light+relief+plant_frag"
-                                : "by_opacity+sun+spp+leaf_light+relief+plant_frag",
-                         problem)
-            : 0;
-    s->ground_program = s->plant_program
-                            ? gl_program("ground_vert",
-                                         counts ? "by_count+sun+ground_frag"
-                                                : "by_opacity+sun+ground_frag",
-                                         problem)
-                            : 0;
-    s->sky_program =
-        s->ground_program ? gl_program("screen_vert", "sky_frag", problem) : 0;
-    return s->sky_program != 0;
+    const char *plant = counts ? "by_count+sun+spp+leaf_light+relief+plant_frag"
+                               : "by_opacity+sun+spp+leaf_light+relief+plant_frag";
+    const char *ground =
+        counts ? "by_count+sun+ground_frag" : "by_opacity+sun+ground_frag";
+    return compile("plant_vert", "depth_frag", &s->depth_program, problem) &&
+           compile("plant_vert", plant, &s->plant_program, problem) &&
+           compile("ground_vert", ground, &s->ground_program, problem) &&
+           compile("screen_vert", "sky_frag", &s->sky_program, problem);
 }
 
-static bool open_all(stage *s, pps_problem *problem) {
+bool stage_upload(stage *s, pps_problem *problem) {
+    size_t n_poses = 0;
     glGenVertexArrays(1, &s->empty);
     s->white = plain_texture();
-    if (fail(load_meshes(s), "the plants' meshes", problem) || !prepare(s, problem) ||
-        fail(stage_fill_static(s), "the cells' tables", problem) ||
-        !compile_all(s, problem)) {
-        return false;
-    }
-    size_t n_poses = s->scene->n_instances; /* at most */
-    n_poses = s->system ? s->system->n_poses : n_poses;
-    return gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
+    return !fail(load_meshes(s), "the plants' meshes", problem) &&
+           !fail(stage_fill_static(s), "the cells' tables", problem) &&
+           compile_all(s, problem) &&
+           !fail(stage_count_poses(s->scene, &n_poses), "the sun's maps", problem) &&
+           gpu_maps_create(s->options.map_texels, (int)n_poses, stage_counts(s),
                            &s->sun.maps, problem) &&
-           stage_light_sky(s, problem) && stage_open_ground(s, problem);
+           upload_light(s, problem) &&
+           (!s->scene->ground.present || stage_open_ground(s, problem));
 }
 
-stage *stage_open(pps_scene *scene, const stage_options *options,
-                  pps_problem *problem) {
+stage *stage_create(pps_scene *scene, const stage_options *options,
+                    pps_problem *problem) {
     stage *s = calloc(1, sizeof *s);
-    if (!s) {
-        pps_scene_free(scene);
-        fail(PPS_ERR_MEMORY, "the scene", problem);
+    if (fail(s ? PPS_OK : PPS_ERR_MEMORY, "the scene", problem)) {
         return NULL;
     }
     s->scene = scene;
     s->options = *options;
-    if (!open_all(s, problem)) {
+    return s;
+}
+
+stage *stage_open(pps_scene *scene, const stage_options *options,
+                  pps_problem *problem) {
+    stage *s = stage_create(scene, options, problem);
+    if (s && !(stage_prepare(s, problem) && stage_upload(s, problem))) {
         stage_close(s);
         return NULL;
     }
@@ -262,7 +333,6 @@ void stage_close(stage *s) {
     glDeleteProgram(s->sky_program);
     pps_system_free(s->system);
     pps_irradiance_free(s->leaves);
-    pps_scene_free(s->scene);
     free(s->attenuation);
     free(s->mesh);
     free(s->instances);

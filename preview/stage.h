@@ -4,6 +4,8 @@
 #ifndef PREVIEW_STAGE_H
 #define PREVIEW_STAGE_H
 
+#include <stdatomic.h>
+
 #include <ppscat/tree/picture.h>
 #include <ppscat/tree/system.h>
 
@@ -17,15 +19,24 @@ typedef enum {
     STAGE_MONTE_CARLO
 } stage_way;
 
+/* How far the opening of a stage is, for another thread to look at and to end it. */
+typedef struct {
+    atomic_int step;       /* of the system's, 1 to 5; 0: not begun */
+    atomic_int percent;    /* of a step that counts; -1: it does not */
+    atomic_bool cancelled; /* set it: Monte Carlo ends early, and opening fails */
+} stage_progress;
+
 typedef struct {
     stage_way way;
     const pps_light_model *model; /* of GRID and LEAVES */
     pps_compensation compensate;
     unsigned sources; /* pps_light_source, added */
+    bool apart;       /* LEAVES: plants do not shade one another */
     bool by_point;    /* models by counts: the sun's scattered light pixel by pixel */
     int map_texels;   /* of the sun's maps that shaders read */
     uint64_t rays;    /* of MONTE_CARLO, as stage_rays */
     int threads;      /* 0: all cores */
+    stage_progress *progress; /* NULL: nobody looks */
 } stage_options;
 
 typedef enum { SHOW_LIGHT, SHOW_SUN, SHOW_SCATTERED } stage_show;
@@ -36,8 +47,7 @@ typedef struct {
     double detail; /* pixels: where leaves are smaller, fewer and larger ones stand for
                       them, until they are that large; 0: every leaf */
     double relief; /* of leaves, 0 to 1 */
-    bool
-        all; /* also plants that are out of view (to see what leaving them out saves) */
+    bool all;      /* plants out of view too, to see what leaving them out saves */
 } stage_look;
 
 /* Seconds: [0..4] the system's steps 1 to 5, [5] the sun's maps on the GPU. */
@@ -50,7 +60,7 @@ typedef struct {
 } stage_sun;
 
 typedef struct stage {
-    pps_scene *scene;
+    pps_scene *scene; /* not its own */
     stage_options options;
     pps_system *system;
     float *attenuation;     /* of LEAVES */
@@ -69,9 +79,20 @@ typedef struct stage {
     GLuint depth_program, plant_program, ground_program, sky_program;
 } stage;
 
-/* Take a scene, which the stage then owns, and do steps 1 to 5. NULL: the problem. */
+/* False, and the problem: the model does not take such a scene. */
+bool stage_takes(const pps_scene *scene, const stage_options *options,
+                 pps_problem *problem);
+
+/* Do steps 1 to 5 for a scene, which must outlive the stage. NULL: the problem. */
 stage *stage_open(pps_scene *scene, const stage_options *options, pps_problem *problem);
 void stage_close(stage *s); /* NULL is fine */
+
+/* The same in its parts: make room; all that needs no OpenGL, and may have a thread of its
+ * own; and the rest. A stage whose part has failed is to be closed. */
+stage *stage_create(pps_scene *scene, const stage_options *options,
+                    pps_problem *problem);
+bool stage_prepare(stage *s, pps_problem *problem);
+bool stage_upload(stage *s, pps_problem *problem);
 
 /* After the scene's sun moved, its sky changed, or other sources are asked for. */
 bool stage_light_sun(stage *s, pps_problem *problem);

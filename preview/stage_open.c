@@ -108,5 +108,11 @@ pps_scene *scene_for(const preview_options *options, pps_problem *problem) {
     if (scene && options->sun_given) {
         turn_sun(scene, options->sun[0], options->sun[1]);
     }
+    if (scene &&
+        !(stage_takes(scene, &options->stage, problem) &&
+          (!options->split || stage_takes(scene, &options->second, problem)))) {
+        pps_scene_free(scene);
+        scene = NULL;
+    }
     return scene;
 }

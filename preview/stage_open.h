@@ -6,7 +6,8 @@
 
 #include "preview/options.h"
 
-/* The scene that the options ask for, its sun turned; NULL: the problem. */
+/* The scene that the options ask for, its sun turned; NULL: the problem, that of a model
+ * which does not take it too. */
 pps_scene *scene_for(const preview_options *options, pps_problem *problem);
 
 /* Turn a scene's sun: degrees from +x towards +y, and above the horizon. */

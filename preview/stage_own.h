@@ -30,6 +30,9 @@ bool stage_by_point(const stage *s);    /* the sun's scattered light is by pixel
 pps_status stage_fill_static(stage *s);
 pps_status stage_fill_light(stage *s);
 
+/* Maps that a light takes: one for all plants of a prototype and yaw. MEMORY. */
+pps_status stage_count_poses(const pps_scene *scene, size_t *out);
+
 /* Draw the maps of all poses towards a light, and its tables; shade lists for the ground
  * alone where `ground_only`. */
 pps_status stage_fill_sun(const stage *s, const double to[3], bool ground_only,

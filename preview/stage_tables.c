@@ -163,6 +163,21 @@ static pps_status find_poses(const pps_scene *scene, pose_list *out) {
     return PPS_OK;
 }
 
+static void free_poses(pose_list *poses) {
+    free(poses->of);
+    free(poses->first);
+}
+
+pps_status stage_count_poses(const pps_scene *scene, size_t *out) {
+    pose_list poses;
+    pps_status status = find_poses(scene, &poses);
+    if (!status) {
+        *out = poses.n;
+        free_poses(&poses);
+    }
+    return status;
+}
+
 /* Where a pose's map has its texels: rows that give them, and the light's way. */
 static void put_pose(const pps_opacity_map *frame, float *out) {
     for (int i = 0; i < 2; i++) {
@@ -270,8 +285,7 @@ pps_status stage_fill_sun(const stage *s, const double to[3], bool ground_only,
     if (!status) {
         status = put_shade(s, ground_only, out);
     }
-    free(poses.of);
-    free(poses.first);
+    free_poses(&poses);
     return status;
 }
 

@@ -30,16 +30,20 @@ static void note_file_time(view_window *w) {
     }
 }
 
-/* What the scene says, into the settings. */
-static void read_scene(view_window *w) {
-    const pps_scene *scene = w->stages.of[0]->scene;
-    const double *to = scene->sun.to;
-    w->settings.sun[0] = atan2(to[1], to[0]) * 180 / 3.14159265358979323846;
-    w->settings.sun[1] = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
+static void read_albedo(view_window *w) {
+    const pps_scene *scene = w->stages.scene;
     w->settings.n_bands = scene->n_bands;
     for (int b = 0; b < scene->n_bands; b++) {
         w->settings.albedo[b] = pps_leaf_albedo(&scene->prototype[0].optics, b);
     }
+}
+
+/* What the scene says, into the settings. */
+static void read_scene(view_window *w) {
+    const double *to = w->stages.scene->sun.to;
+    read_albedo(w);
+    w->settings.sun[0] = atan2(to[1], to[0]) * 180 / 3.14159265358979323846;
+    w->settings.sun[1] = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
 }
 
 static void warn(view_window *w) {
@@ -52,32 +56,117 @@ static void warn(view_window *w) {
     }
 }
 
-static bool load(view_window *w, bool keep, pps_problem *problem) {
+/* Give leaves their new albedo, and find all light anew. */
+static void light_leaves(view_window *w) {
+    pps_problem problem = {""};
+    for (int b = 0; b < w->stages.scene->n_bands; b++) {
+        if (!isnan(w->settings.options.albedo[b])) {
+            set_albedo(w->stages.scene, b, w->settings.options.albedo[b]);
+        }
+    }
+    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
+        if (!stage_light_sky(w->stages.of[i], &problem)) {
+            snprintf(w->note, sizeof w->note, "%s", problem.text);
+        }
+    }
+}
+
+/* ---- opening ---- */
+
+static void wake(void) { glfwPostEmptyEvent(); }
+
+static void start_opening(view_window *w, pps_scene *scene) {
     preview_options options = w->settings.options;
-    stage_pair fresh;
-    int rc;
     options.scene = scene_path(w);
-    if (keep) {
+    if (w->opening.keep) {
         options.sun_given = true;
         memcpy(options.sun, w->settings.sun, sizeof options.sun);
     }
-    note_file_time(w);
-    w->dirty = true;
-    if (!pair_open(&options, &fresh, &rc, problem)) {
-        snprintf(w->note, sizeof w->note, "%s", problem->text);
-        return false;
+    if (!scene) {
+        note_file_time(w);
     }
-    pair_close(&w->stages);
-    w->stages = fresh;
-    w->note[0] = '\0';
-    read_scene(w);
-    warn(w);
-    return true;
+    w->opening.again = false;
+    opener_start(&w->opener, &options, scene, wake);
 }
 
-bool window_load(view_window *w, bool keep) {
-    pps_problem problem = {""};
-    return load(w, keep, &problem);
+void window_load(view_window *w, bool keep, const settings *before, const char *path) {
+    opening *o = &w->opening;
+    if (w->opener.running) { /* what is gone back to stays as it was */
+        o->again = true;
+        o->keep = o->keep && keep;
+        opener_cancel(&w->opener);
+    } else {
+        o->settings = before ? *before : w->settings;
+        memcpy(o->scene_path, w->scene_path, sizeof o->scene_path);
+        o->keep = keep;
+        o->fit = false;
+    }
+    if (path) {
+        strcpy(w->scene_path, path);
+        o->fit = true;
+    }
+    if (!w->opener.running) {
+        start_opening(w, NULL);
+    }
+}
+
+static void go_back(view_window *w, const pps_problem *problem) {
+    w->settings = w->opening.settings;
+    memcpy(w->scene_path, w->opening.scene_path, sizeof w->scene_path);
+    snprintf(w->note, sizeof w->note, "%s", problem->text);
+}
+
+/* Show what was opened, in place of what is there, with what was set meanwhile. */
+static void show_opened(view_window *w) {
+    const preview_options *then = &w->opener.options, *now = &w->settings.options;
+    settings before = w->settings;
+    pair_close(&w->stages);
+    w->stages = w->opener.pair;
+    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
+        w->stages.of[i]->options.progress = NULL; /* the next opening's */
+    }
+    w->note[0] = '\0';
+    read_scene(w);
+    if (w->opening.keep) {
+        memcpy(w->settings.sun, before.sun, sizeof before.sun);
+    }
+    if (memcmp(then->albedo, now->albedo, sizeof then->albedo) != 0) {
+        light_leaves(w);
+        read_albedo(w);
+    }
+    w->sun_moved =
+        w->sun_moved || then->stage.sources != now->stage.sources ||
+        (w->opening.keep && memcmp(then->sun, before.sun, sizeof before.sun) != 0);
+    if (w->opening.fit) {
+        window_start_view(w);
+    }
+    warn(w);
+}
+
+bool window_take(view_window *w, pps_problem *problem) {
+    opener *o = &w->opener;
+    if (!opener_finished(o)) {
+        return true;
+    }
+    w->dirty = true;
+    if (w->opening.again) {
+        if (o->good) {
+            pair_close(&o->pair);
+        }
+        start_opening(w, NULL);
+        return true;
+    }
+    if (o->good && !pair_upload(&o->pair, &o->problem)) {
+        pair_close(&o->pair);
+        o->good = false;
+    }
+    if (o->good) {
+        show_opened(w);
+        return true;
+    }
+    go_back(w, &o->problem);
+    *problem = o->problem;
+    return w->stages.of[0] != NULL;
 }
 
 static void reload_when_changed(view_window *w) {
@@ -85,32 +174,13 @@ static void reload_when_changed(view_window *w) {
     if (scene_path(w) && stat(scene_path(w), &about) == 0 &&
         (about.st_mtim.tv_sec != w->changed.tv_sec ||
          about.st_mtim.tv_nsec != w->changed.tv_nsec)) {
-        window_load(w, false);
-    }
-}
-
-/* Give leaves their new albedo, and find all light anew. */
-static void light_leaves(view_window *w) {
-    pps_problem problem = {""};
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        stage *s = w->stages.of[i];
-        for (int b = 0; b < s->scene->n_bands; b++) {
-            if (!isnan(w->settings.options.albedo[b])) {
-                set_albedo(s->scene, b, w->settings.options.albedo[b]);
-            }
-        }
-        if (!stage_light_sky(s, &problem)) {
-            snprintf(w->note, sizeof w->note, "%s", problem.text);
-        }
+        window_load(w, false, NULL, NULL);
     }
 }
 
 void window_apply(view_window *w, setting_effect effect, const settings *before) {
-    if (effect == EFFECT_OPEN && !window_load(w, true)) {
-        char note[sizeof w->note];
-        memcpy(note, w->note, sizeof note);
-        w->settings = *before;
-        memcpy(w->note, note, sizeof note);
+    if (effect == EFFECT_OPEN) {
+        window_load(w, true, before, NULL);
     } else if (effect == EFFECT_LEAVES) {
         light_leaves(w);
     } else if (effect == EFFECT_SUN) {
@@ -125,12 +195,12 @@ void window_apply(view_window *w, setting_effect effect, const settings *before)
 static bool light_sun(view_window *w, pps_problem *problem) {
     bool dragged = w->drag == DRAG_SUN || w->drag == DRAG_TIME;
     w->sun_moved = false;
+    turn_sun(w->stages.scene, w->settings.sun[0], w->settings.sun[1]);
     for (int i = 0; i < 2 && w->stages.of[i]; i++) {
         stage *s = w->stages.of[i];
         s->options.sources = w->settings.options.stage.sources;
         uint64_t rays = stage_rays(s->scene, w->settings.options.stage.rays);
         s->options.rays = dragged ? rays / FEWER_RAYS + 1 : rays;
-        turn_sun(s->scene, w->settings.sun[0], w->settings.sun[1]);
         if (!stage_light_sun(s, problem)) {
             return false;
         }
@@ -152,6 +222,14 @@ static void write_settings(const view_window *w, char *text, size_t size) {
     }
 }
 
+/* What is being opened, and how far that is. */
+static void write_opening(const view_window *w, char *text, size_t size) {
+    const char *scene = scene_path(w);
+    char step[60];
+    opener_write(&w->opener, step, sizeof step);
+    snprintf(text, size, "opening %.200s: %s", scene ? scene : "a grove", step);
+}
+
 static void write_times(const view_window *w, char *text, size_t size) {
     size_t used =
         (size_t)snprintf(text, size, "frame %.0f ms", 1000 * w->frame_seconds);
@@ -165,10 +243,14 @@ static void write_times(const view_window *w, char *text, size_t size) {
                              options_model_name(&s->options), 1000 * t[0], 1000 * t[1],
                              1000 * t[2], 1000 * t[3], 1000 * t[4], 1000 * t[5]);
     }
-    snprintf(text + used, size - used,
-             "\n%zu triangles; h: help, Tab: no panel%s%s%s%s",
-             w->stages.of[0]->n_triangles, w->warning[0] ? "\n" : "", w->warning,
-             w->note[0] ? "\n" : "", w->note);
+    used += (size_t)snprintf(text + used, size - used,
+                             "\n%zu triangles; h: help, Tab: no panel%s%s%s%s",
+                             w->stages.of[0]->n_triangles, w->warning[0] ? "\n" : "",
+                             w->warning, w->note[0] ? "\n" : "", w->note);
+    if (w->opener.running && used + 1 < size) {
+        text[used++] = '\n';
+        write_opening(w, text + used, size - used);
+    }
 }
 
 static void write_help(char *text, size_t size) {
@@ -186,6 +268,11 @@ static void write_help(char *text, size_t size) {
 static void write_panels(view_window *w, int width, int height) {
     char text[TEXT];
     int scale = w->scale, gap = 8 * scale;
+    if (!w->stages.of[0]) {
+        write_opening(w, text, sizeof text);
+        panel_draw(&w->panel, width, height, scale, gap, gap, text);
+        return;
+    }
     if (w->help) {
         write_help(text, sizeof text);
         panel_draw(&w->panel, width, height, scale, gap, gap, text);
@@ -237,6 +324,14 @@ static void show(const view_window *w, const frame *f, int width, int height) {
     }
 }
 
+/* Before there is a picture. */
+static void clear(int width, int height) {
+    static const float gray[] = {0.4F, 0.45F, 0.5F, 1};
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glClearBufferfv(GL_COLOR, 0, gray);
+}
+
 static void draw_frame(view_window *w, const frame *f) {
     pps_camera camera;
     orbit_camera(&w->orbit, &camera);
@@ -280,9 +375,38 @@ static bool fit_window(view_window *w, int width, int height, pps_problem *probl
     }
     frame_free(&w->fine);
     frame_free(&w->coarse);
+    w->shown = NULL;
     return frame_create(width, height, w->settings.options.samples, &w->fine,
                         problem) &&
            frame_create((width + 1) / 2, (height + 1) / 2, 1, &w->coarse, problem);
+}
+
+/* A picture that is asked for waits until all that was set before is there. */
+static void draw_light(view_window *w) {
+    bool save = w->save && !w->opener.running;
+    bool coarse = w->drag && w->frame_seconds > SLOW && !save;
+    double start = glfwGetTime();
+    w->shown = coarse ? &w->coarse : &w->fine;
+    draw_frame(w, w->shown);
+    if (!coarse) {
+        w->frame_seconds = glfwGetTime() - start;
+    }
+    if (save) {
+        save_picture(w);
+    }
+    w->dirty = coarse; /* the fine one follows */
+}
+
+void window_show(view_window *w) {
+    int width, height;
+    glfwGetFramebufferSize(w->window, &width, &height);
+    if (w->shown) {
+        show(w, w->shown, width, height);
+    } else {
+        clear(width, height);
+    }
+    write_panels(w, width, height);
+    glfwSwapBuffers(w->window);
 }
 
 bool window_draw(view_window *w, pps_problem *problem) {
@@ -295,26 +419,17 @@ bool window_draw(view_window *w, pps_problem *problem) {
         !fit_window(w, width, height, problem)) {
         return false;
     }
-    bool coarse = w->drag && w->frame_seconds > SLOW && !w->save;
-    const frame *f = coarse ? &w->coarse : &w->fine;
-    double start = glfwGetTime();
-    draw_frame(w, f);
-    if (!coarse) {
-        w->frame_seconds = glfwGetTime() - start;
+    w->dirty = false;
+    if (w->stages.of[0]) {
+        draw_light(w);
     }
-    if (w->save) {
-        save_picture(w);
-    }
-    show(w, f, width, height);
-    write_panels(w, width, height);
-    glfwSwapBuffers(w->window);
-    w->dirty = coarse; /* the fine one follows */
+    window_show(w);
     return gl_check("drawing", problem);
 }
 
 void window_start_view(view_window *w) {
     const preview_options *o = &w->settings.options;
-    orbit_fit(&w->orbit, w->stages.of[0]->scene, o->view[0], o->view[1],
+    orbit_fit(&w->orbit, w->stages.scene, o->view[0], o->view[1],
               (double)w->fine.width / w->fine.height);
     orbit_zoom(&w->orbit, o->zoom);
 }
@@ -365,10 +480,16 @@ static bool loop(view_window *w, pps_problem *problem) {
             if (!window_draw(w, problem)) {
                 return false;
             }
+        } else if (w->opener.running) { /* its progress */
+            window_show(w);
+            glfwWaitEventsTimeout(LOOK_AGAIN);
         } else {
             glfwWaitEventsTimeout(LOOK_AGAIN);
         }
-        if (glfwGetTime() - looked > LOOK_AGAIN) {
+        if (!window_take(w, problem)) {
+            return false;
+        }
+        if (!w->opener.running && glfwGetTime() - looked > LOOK_AGAIN) {
             reload_when_changed(w);
             looked = glfwGetTime();
         }
@@ -376,17 +497,29 @@ static bool loop(view_window *w, pps_problem *problem) {
     return true;
 }
 
-bool window_open(const preview_options *options, view_window *w, pps_problem *problem) {
+int window_open(const preview_options *options, view_window *w, pps_problem *problem) {
     *w = (view_window){.settings = {.options = *options, .split_at = 0.5}};
-    if (open_window(w, problem) && prepare(w, problem) && load(w, false, problem)) {
-        window_start_view(w);
-        return true;
+    note_file_time(w);
+    pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
+    if (!scene) {
+        return EXIT_USAGE;
     }
-    return false;
+    if (!open_window(w, problem) || !prepare(w, problem)) {
+        pps_scene_free(scene);
+        return EXIT_FAILED;
+    }
+    w->opening.settings = w->settings;
+    w->opening.fit = true;
+    start_opening(w, scene);
+    w->dirty = true;
+    return EXIT_DONE;
 }
 
 void window_close(view_window *w) {
     if (w->window) {
+        glfwHideWindow(w->window); /* at once; the thread may take a while */
+        glfwPollEvents();
+        opener_end(&w->opener);
         pair_close(&w->stages);
         frame_free(&w->fine);
         frame_free(&w->coarse);
@@ -400,19 +533,13 @@ void window_close(view_window *w) {
 
 int window_run(const preview_options *options, pps_problem *problem) {
     view_window *w = calloc(1, sizeof *w);
-    int rc = EXIT_FAILED;
     if (!w) {
         strcpy(problem->text, "out of memory");
-        return rc;
+        return EXIT_FAILED;
     }
-    pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
-    if (!scene) {
-        free(w);
-        return EXIT_USAGE;
-    }
-    pps_scene_free(scene);
-    if (window_open(options, w, problem)) {
-        rc = loop(w, problem) ? EXIT_DONE : EXIT_FAILED;
+    int rc = window_open(options, w, problem);
+    if (rc == EXIT_DONE && !loop(w, problem)) {
+        rc = EXIT_FAILED;
     }
     window_close(w);
     free(w);

@@ -40,7 +40,7 @@ static void press(view_window *w, int key) {
         w->save = true; /* of the next frame, with all that moved until now */
         break;
     case GLFW_KEY_R:
-        window_load(w, true);
+        window_load(w, true, NULL, NULL);
         break;
     case GLFW_KEY_H:
         w->help = !w->help;
@@ -54,11 +54,16 @@ static void press(view_window *w, int key) {
     }
 }
 
+/* Keys that need no scene: they count while the first is being opened. */
+static bool is_early(int key) {
+    return key == GLFW_KEY_Q || key == GLFW_KEY_ESCAPE || key == GLFW_KEY_S;
+}
+
 static void on_key(GLFWwindow *window, int key, int code, int action, int mods) {
     view_window *w = glfwGetWindowUserPointer(window);
     int step;
     (void)code;
-    if (action == GLFW_RELEASE || !w->stages.of[0]) {
+    if (action == GLFW_RELEASE || (!w->stages.of[0] && !is_early(key))) {
         return;
     }
     const setting *row = setting_of_key(key, mods & GLFW_MOD_SHIFT, &step);
@@ -111,6 +116,9 @@ static void on_button(GLFWwindow *window, int button, int action, int mods) {
     bool shift = mods & GLFW_MOD_SHIFT;
     int step;
     drag was = w->drag;
+    if (!w->stages.of[0]) {
+        return;
+    }
     w->dirty = true;
     w->drag = DRAG_NONE;
     if (action != GLFW_PRESS) { /* what was coarse while it moved becomes fine */
@@ -131,7 +139,7 @@ static void on_button(GLFWwindow *window, int button, int action, int mods) {
 
 /* By shares of the window. */
 static void move(view_window *w, double x, double y, double aspect) {
-    const pps_ground *ground = &w->stages.of[0]->scene->ground;
+    const pps_ground *ground = &w->stages.scene->ground;
     settings before = w->settings;
     switch (w->drag) {
     case DRAG_VIEW:
@@ -172,7 +180,10 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
     view_window *w = glfwGetWindowUserPointer(window);
     int step;
     (void)x;
-    const setting *row = w->stages.of[0] ? under_cursor(w, &step) : NULL;
+    if (!w->stages.of[0]) {
+        return;
+    }
+    const setting *row = under_cursor(w, &step);
     if (row && y != 0) {
         change(w, row, y > 0 ? 1 : -1);
     } else {
@@ -185,16 +196,8 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
 
 static void on_drop(GLFWwindow *window, int n, const char **path) {
     view_window *w = glfwGetWindowUserPointer(window);
-    char before[sizeof w->scene_path];
-    if (n < 1 || strlen(path[0]) >= sizeof w->scene_path) {
-        return;
-    }
-    memcpy(before, w->scene_path, sizeof before);
-    strcpy(w->scene_path, path[0]);
-    if (window_load(w, false)) {
-        window_start_view(w);
-    } else {
-        memcpy(w->scene_path, before, sizeof before);
+    if (n > 0 && strlen(path[0]) < sizeof w->scene_path) {
+        window_load(w, false, NULL, path[0]);
     }
 }
 

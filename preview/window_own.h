@@ -12,6 +12,7 @@
 #include <GLFW/glfw3.h>
 
 #include "preview/frame.h"
+#include "preview/opener.h"
 #include "preview/orbit.h"
 #include "preview/pair.h"
 #include "preview/panel.h"
@@ -19,13 +20,27 @@
 
 typedef enum { DRAG_NONE, DRAG_VIEW, DRAG_PAN, DRAG_SUN, DRAG_TIME, DRAG_SPLIT } drag;
 
+enum { PATH = 4096 };
+
+/* What is gone back to where opening fails, and what else is to be done when it is through. */
+typedef struct {
+    settings settings;
+    char scene_path[PATH];
+    bool keep;  /* the sun stays where it is */
+    bool fit;   /* the camera starts anew */
+    bool again; /* meanwhile something else was asked for: begin from the start */
+} opening;
+
 typedef struct {
     GLFWwindow *window;
     settings settings;
-    char scene_path[4096]; /* of a dropped file */
-    stage_pair stages;
+    char scene_path[PATH]; /* of a dropped file */
+    stage_pair stages;     /* none before the first are open */
+    opener opener;
+    opening opening;
     orbit orbit;
     frame fine, coarse;
+    const frame *shown; /* one of these, as drawn last; NULL: none yet */
     GLuint tone, empty;
     panel panel;
     panel_place settings_place;              /* as drawn last */
@@ -39,17 +54,24 @@ typedef struct {
     int pictures;
 } view_window;
 
-/* Open it with the scene that options ask for; false: the problem. To be closed either
- * way. */
-bool window_open(const preview_options *options, view_window *w, pps_problem *problem);
+/* Open it, and begin to open the scene that options ask for. An exit code, its problem:
+ * EXIT_USAGE where the scene is to blame. To be closed in any case. */
+int window_open(const preview_options *options, view_window *w, pps_problem *problem);
 void window_close(view_window *w);
 
-/* Draw a frame of what is there now, and what is written over it. */
+/* Draw a frame of what is there now, and what is written over it; or show the last one with
+ * what is written now. */
 bool window_draw(view_window *w, pps_problem *problem);
+void window_show(view_window *w);
 
-/* Read the scene and light it, the sun staying where it is if `keep`. On failure what was
- * there stays, and a note tells why. */
-bool window_load(view_window *w, bool keep);
+/* Begin to read the scene, of `path` if one is given, and to light it, the sun staying where
+ * it is if `keep`. Until that is done what is there stays; where it fails, so it does, with
+ * the settings that were `before` (NULL: as they are), and a note tells why. */
+void window_load(view_window *w, bool keep, const settings *before, const char *path);
+
+/* To be called now and then: take what has been opened. False: there is nothing to show, and
+ * the problem. */
+bool window_take(view_window *w, pps_problem *problem);
 
 /* Do what a changed setting asks for; `before` is gone back to where that fails. */
 void window_apply(view_window *w, setting_effect effect, const settings *before);

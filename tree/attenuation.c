@@ -15,7 +15,7 @@
 static const float OCTANT = 1.57079632679489662F; /* pi/2, its solid angle */
 static const float MOST = 0.98F;                  /* a leaf hides of an octant */
 
-static const double DEFAULT_OPENING = 0.6;
+static const double DEFAULT_OPENING = 0.6, SAME_YAW = 1e-9;
 
 /* The few leaves of a bucket show what they show, not what the mean leaf does: such groups
  * must be this much further away. The best of 1, 1.7, 2.8, 3 at equal time. */
@@ -148,15 +148,12 @@ static void attenuate(const pps_scene *scene, const pps_octree *tree, uint32_t s
     }
 }
 
-pps_status pps_leaf_attenuation(const pps_scene *scene,
-                                const pps_attenuation_options *options, float *att) {
-    pps_attenuation_options o = options ? *options : (pps_attenuation_options){0};
-    float opening = (float)(o.opening == 0 ? DEFAULT_OPENING : fmax(o.opening, 0));
-    int threads = o.threads > 0 ? o.threads : omp_get_max_threads();
+/* All leaves of a scene, each in the shade of all the others. */
+static pps_status attenuate_together(const pps_scene *scene,
+                                     const pps_attenuation_options *o, float *att) {
+    float opening = (float)(o->opening == 0 ? DEFAULT_OPENING : fmax(o->opening, 0));
+    int threads = o->threads > 0 ? o->threads : omp_get_max_threads();
     pps_octree *tree;
-    if (!scene || !att || !(o.opening < 1) || o.threads < 0) {
-        return PPS_ERR_ARGUMENT;
-    }
     pps_status status = pps_octree_create(scene, &tree);
     if (status) {
         return status;
@@ -169,5 +166,80 @@ pps_status pps_leaf_attenuation(const pps_scene *scene,
         }
     }
     pps_octree_free(tree);
+    return PPS_OK;
+}
+
+/* The first instance that is the same plant, turned the same way: sizes and places do not
+ * count for what a plant's own leaves hide of each other. */
+static size_t first_alike(const pps_scene *scene, size_t i) {
+    const pps_instance *at = scene->instance;
+    size_t k = 0;
+    while (at[k].prototype != at[i].prototype ||
+           fabs(remainder(at[k].yaw - at[i].yaw, 360)) > SAME_YAW) {
+        k++;
+    }
+    return k;
+}
+
+static pps_status attenuate_alone(const pps_scene *scene, size_t i,
+                                  const pps_attenuation_options *o, float *att) {
+    pps_instance plant = {.prototype = scene->instance[i].prototype,
+                          .yaw = scene->instance[i].yaw,
+                          .scale = 1};
+    size_t first = 0;
+    pps_scene lone = *scene;
+    lone.n_instances = 1;
+    lone.instance = &plant;
+    lone.n_leaves = scene->prototype[plant.prototype].mesh->n_leaves;
+    lone.first_leaf = &first;
+    lone.period[0] = lone.period[1] = 0;
+    return lone.n_leaves ? attenuate_together(&lone, o, att) : PPS_OK;
+}
+
+static pps_status attenuate_apart(const pps_scene *scene,
+                                  const pps_attenuation_options *o, float *att) {
+    pps_status status = PPS_OK;
+    for (size_t i = 0; i < scene->n_instances && !status; i++) {
+        size_t k = first_alike(scene, i);
+        float *own = att + (size_t)PPS_OCTANTS * scene->first_leaf[i];
+        if (k == i) {
+            status = attenuate_alone(scene, i, o, own);
+        } else {
+            size_t n = scene->prototype[scene->instance[i].prototype].mesh->n_leaves;
+            memcpy(own, att + (size_t)PPS_OCTANTS * scene->first_leaf[k],
+                   PPS_OCTANTS * n * sizeof *att);
+        }
+    }
+    return status;
+}
+
+pps_status pps_leaf_attenuation(const pps_scene *scene,
+                                const pps_attenuation_options *options, float *att) {
+    pps_attenuation_options o = options ? *options : (pps_attenuation_options){0};
+    if (!scene || !att || scene->n_leaves == 0 || !(o.opening < 1) || o.threads < 0) {
+        return PPS_ERR_ARGUMENT;
+    }
+    return o.apart ? attenuate_apart(scene, &o, att)
+                   : attenuate_together(scene, &o, att);
+}
+
+pps_status pps_leaf_attenuation_create(const pps_scene *scene,
+                                       const pps_attenuation_options *options,
+                                       float **out) {
+    if (!out) {
+        return PPS_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (!scene || scene->n_leaves == 0) {
+        return PPS_ERR_ARGUMENT;
+    }
+    float *att = malloc(PPS_OCTANTS * scene->n_leaves * sizeof *att);
+    pps_status status =
+        att ? pps_leaf_attenuation(scene, options, att) : PPS_ERR_MEMORY;
+    if (status) {
+        free(att);
+        return status;
+    }
+    *out = att;
     return PPS_OK;
 }

@@ -289,11 +289,7 @@ static pps_status need_attenuations(const pps_scene *scene, size_t n,
     for (size_t i = 0; i < n; i++) {
         needed |= contender[i].model && contender[i].model->takes_attenuations;
     }
-    if (!needed) {
-        return PPS_OK;
-    }
-    *att = malloc((PPS_OCTANTS * scene->n_leaves + 1) * sizeof **att);
-    return *att ? pps_leaf_attenuation(scene, NULL, *att) : PPS_ERR_MEMORY;
+    return needed ? pps_leaf_attenuation_create(scene, NULL, att) : PPS_OK;
 }
 
 pps_status pps_score_models(const pps_scene *scene, const pps_cells *cells,

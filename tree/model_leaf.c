@@ -16,9 +16,8 @@ static pps_status leaves(const pps_lit_scene *lit, pps_irradiance *out) {
         return light(lit, lit->options.att, out);
     }
     pps_attenuation_options options = {.threads = lit->options.threads};
-    float *att = malloc((PPS_OCTANTS * lit->scene->n_leaves + 1) * sizeof *att);
-    pps_status status =
-        att ? pps_leaf_attenuation(lit->scene, &options, att) : PPS_ERR_MEMORY;
+    float *att;
+    pps_status status = pps_leaf_attenuation_create(lit->scene, &options, &att);
     if (!status) {
         status = light(lit, att, out);
     }

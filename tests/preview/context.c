@@ -62,3 +62,9 @@ stage *stage_for(pps_scene *scene, const preview_options *options) {
     }
     return s;
 }
+
+void stage_done(stage *s) {
+    pps_scene *scene = s->scene;
+    stage_close(s);
+    pps_scene_free(scene);
+}

@@ -17,7 +17,8 @@ pps_scene *three_crowns(void);
 enum { CROWNS_WIDTH = 240, CROWNS_HEIGHT = 200 };
 preview_options crowns_options(const char *model, unsigned sources);
 
-/* Open a stage; the test fails if it cannot be. */
+/* Open a stage; the test fails if it cannot be. Close it, and free its scene. */
 stage *stage_for(pps_scene *scene, const preview_options *options);
+void stage_done(stage *s);
 
 #endif

@@ -155,7 +155,7 @@ static void pixels_are_the_library_s(void **state) {
         assert_true(same >= 0.995);
         assert_true(like.off < 0.02 * like.want);
         pps_picture_free(frame);
-        stage_close(s);
+        stage_done(s);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <png.h>
 
@@ -128,6 +129,20 @@ static void times_are_csv(void **state) {
     result_free(&r);
 }
 
+/* The light it opened with is what Monte Carlo is timed by: the clock's for both times. */
+static void monte_carlo_is_timed_once(void **state) {
+    (void)state;
+    result r = program_run("--bench --model mc --rays 20000 " SMALL OAK);
+    double ms, cpu_ms;
+    assert_int_equal(r.status, 0);
+    assert_int_equal(count_lines(r.out), 14);
+    const char *sun = strstr(r.out, "\n5,sun,");
+    assert_non_null(sun);
+    assert_int_equal(sscanf(sun, "\n5,sun,%lf,%lf", &ms, &cpu_ms), 2);
+    assert_true(ms > 0 && ms == cpu_ms);
+    result_free(&r);
+}
+
 /* A box of four cards, each as wide as the box. */
 static void leaves_larger_than_cells_are_told(void **state) {
     (void)state;
@@ -172,6 +187,19 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--snapshot no/such/a.png " SMALL OAK,
          "--snapshot: cannot write 'no/such/a.png': No such file", 2},
         {"--split fog " OAK, "--split: 'fog' is not possible; allowed: lattice, ", 2},
+        {"--size ' 64x64' " OAK, "--size: ' 64x64' is not possible", 2},
+        {"--size 64x64x " OAK, "--size: '64x64x' is not possible", 2},
+        {"--snapshot folder.png " OAK,
+         "--snapshot: cannot write 'folder.png': Is a directory", 2},
+        {"--snapshot a.png " SMALL "--view 0,-20 " OAK,
+         "--view: from an elevation of -20 the ground hides all", 2},
+        {"--snapshot a.png --model sppg leaf-trees-4", "the model sppg takes scenes",
+         2},
+        {"--snapshot a.png --split sppg leaf-trees-4", "the model sppg takes scenes",
+         2},
+        {"--component sky-indirect --model leaf " OAK,
+         "--component: the model leaf knows none of this light", 2},
+        {"--apart --model ss " OAK, "--apart: it is for the model leaf; this is ss", 2},
         {"--split ss --bench " OAK, "--bench and --split", 2},
         {"--albedo 1.5 " OAK, "--albedo: '1.5' is not possible; allowed: numbers", 2},
         {"--albedo 0.5,, " OAK, "--albedo: '0.5,,' is not possible", 2},
@@ -183,6 +211,7 @@ static void bad_usage_is_refused_in_one_line(void **state) {
         {"--scattered leaf " OAK, "--scattered: 'leaf' is not possible; allowed: pixel",
          2},
     };
+    assert_int_equal(mkdir("folder.png", 0777), 0);
     FILE *broken = fopen("broken.json", "w");
     assert_non_null(broken);
     fputs("{\"prototypes\": 3}\n", broken);
@@ -224,7 +253,7 @@ static void help_lists_every_option(void **state) {
         "--split",    "--scattered", "--albedo",  "--latitude",   "--zoom",
         "--detail",   "--relief",    "--sun",     "--view",       "--size",
         "--show",     "--exposure",  "--samples", "--rays",       "--jobs",
-        "--help",     "--version"};
+        "--apart",    "--help",      "--version"};
     result r = program_run("--help");
     assert_int_equal(r.status, 0);
     for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
@@ -243,6 +272,7 @@ int main(void) {
         cmocka_unit_test(options_change_the_picture),
         cmocka_unit_test(a_split_picture_has_a_half_of_each),
         cmocka_unit_test(times_are_csv),
+        cmocka_unit_test(monte_carlo_is_timed_once),
         cmocka_unit_test(leaves_larger_than_cells_are_told),
         cmocka_unit_test(bad_usage_is_refused_in_one_line),
         cmocka_unit_test(without_display_or_driver_it_says_so),

@@ -95,7 +95,7 @@ static void frames_are_pictures_by_rays(void **state) {
         assert_true(like.ratio > 0.999 && like.ratio < 1 + row[i].brighter);
         assert_true(like.equal >= row[i].equal);
         pps_irradiance_free(shaded);
-        stage_close(s);
+        stage_done(s);
     }
 }
 
@@ -133,7 +133,7 @@ static void sky_and_shadow_are_where_rays_find_them(void **state) {
     pps_irradiance_free(none);
     pps_picture_free(gpu);
     pps_picture_free(rays);
-    stage_close(s);
+    stage_done(s);
 }
 
 static void a_moved_sun_gives_the_frame_of_a_fresh_one(void **state) {
@@ -155,8 +155,8 @@ static void a_moved_sun_gives_the_frame_of_a_fresh_one(void **state) {
     pps_picture_free(before);
     pps_picture_free(after);
     pps_picture_free(want);
-    stage_close(s);
-    stage_close(fresh);
+    stage_done(s);
+    stage_done(fresh);
 }
 
 /* Mean light of the picture, and mean distance of two pictures over squares of 10 x 10
@@ -218,7 +218,7 @@ static void looks_keep_the_light(void **state) {
     assert_memory_equal(all->rgb, plain->rgb, 3 * WIDTH * HEIGHT * sizeof(float));
     pps_picture_free(all);
     pps_picture_free(plain);
-    stage_close(s);
+    stage_done(s);
 }
 
 /* Albedo may change while a stage is open: the frame is that of a fresh one. */
@@ -243,8 +243,8 @@ static void a_changed_albedo_gives_the_frame_of_a_fresh_one(void **state) {
         pps_picture_free(before);
         pps_picture_free(after);
         pps_picture_free(want);
-        stage_close(s);
-        stage_close(fresh);
+        stage_done(s);
+        stage_done(fresh);
     }
 }
 

@@ -32,6 +32,16 @@ static void write_cards(const char *path, int n) {
     assert_int_equal(fclose(file), 0);
 }
 
+/* Until all is open that was asked for. */
+static bool open_all(pps_problem *problem) {
+    bool good = true;
+    while (good && w.opener.running) {
+        glfwWaitEventsTimeout(0.05);
+        good = window_take(&w, problem);
+    }
+    return good;
+}
+
 static int setup(void **state) {
     (void)state;
     static char arguments[][24] = {"p", "--model", "leaf",    "--samples",
@@ -45,31 +55,52 @@ static int setup(void **state) {
     write_cards("window-cards.obj", 4);
     dense = system(DENSE) == 0;
     if (!options_read(8, argv, &options, &problem) ||
-        !window_open(&options, &w, &problem) || !window_draw(&w, &problem)) {
+        window_open(&options, &w, &problem) != EXIT_DONE ||
+        !window_draw(&w, &problem) || !open_all(&problem) ||
+        !window_draw(&w, &problem)) {
         print_message("%s\n", problem.text);
         return -1;
     }
     return 0;
 }
 
+/* Closed in the midst of Monte Carlo that would take hours. */
 static int teardown(void **state) {
     (void)state;
+    if (!options_model("mc", &w.settings.options.stage)) {
+        return -1;
+    }
+    w.settings.options.stage.rays = 10000000000;
+    window_load(&w, true, NULL, NULL);
     window_close(&w);
     return 0;
 }
 
+static void settle(void) {
+    pps_problem problem = {""};
+    if (!open_all(&problem)) {
+        fail_msg("%s", problem.text);
+    }
+}
+
 static void draw(void) {
     pps_problem problem = {""};
+    settle();
     if (!window_draw(&w, &problem)) {
         fail_msg("%s", problem.text);
     }
 }
 
 /* The callback that the window has registered is called as GLFW would. */
-static void drop(const char *path) {
+static void begin_drop(const char *path) {
     GLFWdropfun call = glfwSetDropCallback(w.window, NULL);
     call(w.window, 1, &path);
     glfwSetDropCallback(w.window, call);
+}
+
+static void drop(const char *path) {
+    begin_drop(path);
+    settle();
 }
 
 static void wheel(double y) {
@@ -114,9 +145,68 @@ static void a_reload_keeps_the_camera_and_the_sun(void **state) {
     double sun = w.settings.sun[0];
     write_cards("window-cards.obj", 6);
     key(GLFW_KEY_R, 0);
+    settle();
     assert_int_equal(w.stages.of[0]->n_triangles, 12);
     assert_memory_equal(&before, &w.orbit, sizeof before);
     assert_close(w.settings.sun[0], sun, 0, 1e-9);
+}
+
+/* What is there is drawn and moves while something else is opened. */
+static void the_window_goes_on_while_a_scene_opens(void **state) {
+    (void)state;
+    pps_problem problem = {""};
+    drop("window-cards.obj");
+    double far = w.orbit.distance;
+    begin_drop(OAK);
+    assert_true(w.opener.running);
+    wheel(1);
+    assert_true(window_draw(&w, &problem));
+    window_show(&w);
+    assert_close(w.orbit.distance, far / 1.1, 1e-12, 0);
+    assert_int_equal(w.stages.of[0]->n_triangles, 12);
+    settle();
+    assert_int_equal(w.stages.of[0]->n_triangles, 6806);
+}
+
+/* Of models asked for one after another the last is there; the sun stands where it was put
+ * meanwhile. */
+static void what_is_set_while_a_scene_opens_holds(void **state) {
+    (void)state;
+    stage_options was = w.settings.options.stage;
+    key(GLFW_KEY_M, 0);
+    key(GLFW_KEY_LEFT, 0);
+    key(GLFW_KEY_M, GLFW_MOD_SHIFT);
+    key(GLFW_KEY_M, GLFW_MOD_SHIFT);
+    key(GLFW_KEY_2, 0);
+    draw();
+    const stage *s = w.stages.of[0];
+    assert_string_not_equal(options_model_name(&s->options), options_model_name(&was));
+    assert_string_equal(options_model_name(&s->options),
+                        options_model_name(&w.settings.options.stage));
+    double azimuth =
+        atan2(s->scene->sun.to[1], s->scene->sun.to[0]) * 180 / 3.14159265358979323846;
+    assert_close(azimuth, w.settings.sun[0], 0, 1e-9);
+    assert_close(pps_leaf_albedo(&s->scene->prototype[0].optics, 1),
+                 w.settings.options.albedo[1], 1e-12, 0);
+    key(GLFW_KEY_M, 0);
+    settle();
+    assert_string_equal(options_model_name(&w.stages.of[0]->options),
+                        options_model_name(&was));
+}
+
+/* All that was asked for since goes back with it. */
+static void a_failure_while_a_scene_opens_goes_back(void **state) {
+    (void)state;
+    stage_options was = w.settings.options.stage;
+    size_t n = w.stages.of[0]->n_triangles;
+    key(GLFW_KEY_M, 0);
+    begin_drop("no-such-file.obj");
+    settle();
+    assert_non_null(strstr(w.note, "no-such-file.obj"));
+    assert_int_equal(w.stages.of[0]->n_triangles, n);
+    assert_string_equal(options_model_name(&w.settings.options.stage),
+                        options_model_name(&was));
+    assert_null(strstr(w.scene_path, "no-such-file"));
 }
 
 static void the_wheel_comes_nearer(void **state) {
@@ -180,6 +270,9 @@ int main(void) {
         cmocka_unit_test(a_dropped_mesh_is_opened_and_framed),
         cmocka_unit_test(a_dropped_file_that_is_no_scene_changes_nothing),
         cmocka_unit_test(a_reload_keeps_the_camera_and_the_sun),
+        cmocka_unit_test(the_window_goes_on_while_a_scene_opens),
+        cmocka_unit_test(what_is_set_while_a_scene_opens_holds),
+        cmocka_unit_test(a_failure_while_a_scene_opens_goes_back),
         cmocka_unit_test(the_wheel_comes_nearer),
         cmocka_unit_test(frames_follow_the_window_s_size),
         cmocka_unit_test(letters_grow_with_the_screen_s_density),

@@ -279,6 +279,62 @@ static void threads_do_not_change_the_attenuation(void **state) {
     pps_scene_free(scene);
 }
 
+static void an_array_of_its_own_holds_the_same(void **state) {
+    (void)state;
+    enum { N = 200 };
+    pps_scene *scene = crown_scene(PPS_CROWN_UNIFORM, 2, N, 3);
+    pps_attenuation_options o = {.opening = 0.3};
+    float here[8 * N], *own = here;
+    assert_int_equal(pps_leaf_attenuation(scene, &o, here), PPS_OK);
+    assert_int_equal(pps_leaf_attenuation_create(scene, &o, &own), PPS_OK);
+    assert_memory_equal(own, here, sizeof here);
+    free(own);
+    o.threads = -1;
+    assert_int_equal(pps_leaf_attenuation_create(scene, &o, &own), PPS_ERR_ARGUMENT);
+    assert_null(own);
+    scene->n_leaves = 0;
+    own = here;
+    assert_int_equal(pps_leaf_attenuation_create(scene, NULL, &own), PPS_ERR_ARGUMENT);
+    assert_null(own);
+    assert_int_equal(pps_leaf_attenuation_create(NULL, NULL, &own), PPS_ERR_ARGUMENT);
+    assert_int_equal(pps_leaf_attenuation_create(scene, NULL, NULL), PPS_ERR_ARGUMENT);
+    pps_scene_free(scene);
+}
+
+/* Three of a plant, one like another but for size and place. */
+static void plants_apart_have_what_each_has_alone(void **state) {
+    (void)state;
+    enum { N = 500 };
+    const size_t bytes = 8 * N * sizeof(float);
+    pps_scene *lone = crown_scene(PPS_CROWN_UNIFORM, 3, N, 6),
+              *scene = crown_scene(PPS_CROWN_UNIFORM, 3, N, 6);
+    float alone[2][8 * N], att[3][8 * N], together[3][8 * N];
+    pps_attenuation_options apart = {.apart = true};
+    double ratio = 0;
+    scene->instance = realloc(scene->instance, 3 * sizeof *scene->instance);
+    scene->n_instances = 3;
+    scene->instance[1] = (pps_instance){0, {1.5, 0.5, 0}, 72, 1.3};
+    scene->instance[2] = (pps_instance){0, {-1, 1, 0.2}, 72 - 360, 0.7};
+    scene->period[0] = scene->period[1] = 5;
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
+    assert_int_equal(pps_leaf_attenuation(lone, NULL, alone[0]), PPS_OK);
+    lone->instance[0].yaw = 72;
+    assert_int_equal(pps_leaf_attenuation(lone, NULL, alone[1]), PPS_OK);
+    assert_int_equal(pps_leaf_attenuation(scene, &apart, att[0]), PPS_OK);
+    assert_int_equal(pps_leaf_attenuation(scene, NULL, together[0]), PPS_OK);
+    assert_memory_equal(att[0], alone[0], bytes);
+    assert_memory_equal(att[1], alone[1], bytes);
+    assert_memory_equal(att[2], alone[1], bytes);
+    for (int i = 0; i < 3 * 8 * N; i++) {
+        ratio += (double)(together[i / (8 * N)][i % (8 * N)] /
+                          att[i / (8 * N)][i % (8 * N)]) /
+                 (3 * 8 * N);
+    }
+    assert_true(ratio < 0.9);
+    pps_scene_free(lone);
+    pps_scene_free(scene);
+}
+
 /* Far copies of the scene take light away, and the same from either side. */
 static void neighbours_of_a_periodic_scene_shade(void **state) {
     (void)state;
@@ -370,6 +426,8 @@ int main(void) {
         cmocka_unit_test(a_lone_leaf_has_clear_octants),
         cmocka_unit_test(groups_of_leaves_are_as_good_as_leaves),
         cmocka_unit_test(threads_do_not_change_the_attenuation),
+        cmocka_unit_test(an_array_of_its_own_holds_the_same),
+        cmocka_unit_test(plants_apart_have_what_each_has_alone),
         cmocka_unit_test(neighbours_of_a_periodic_scene_shade),
         cmocka_unit_test(rays_see_a_ceiling),
         cmocka_unit_test(products_agree_with_rays_in_the_mean),

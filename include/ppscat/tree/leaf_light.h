@@ -25,10 +25,12 @@ enum { PPS_OCTANTS = 8 };
 PPS_API void pps_octant_direction(int j, double out[3]);
 
 typedef struct pps_attenuation_options {
-    double
-        opening; /* a group of leaves counts as one where its radius is less than this
-                       share of its distance; 0: 0.6. Negative: every leaf by itself */
+    /* A group of leaves counts as one where its radius is less than this share of its
+     * distance; 0: 0.6. Negative: every leaf by itself. */
+    double opening;
     int threads; /* 0: all cores; never changes the answer */
+    bool apart;  /* plants do not shade one another (as in B section 7): what each would
+                    have alone, found once for all of a prototype and yaw */
 } pps_attenuation_options;
 
 /* att[8 * leaf + j] of every leaf of the scene, by the product of what each other leaf
@@ -39,6 +41,13 @@ typedef struct pps_attenuation_options {
 PPS_API pps_status pps_leaf_attenuation(const pps_scene *scene,
                                         const pps_attenuation_options *options,
                                         float *att);
+
+/* The same in an array of its own, att[PPS_OCTANTS * n_leaves], which is the caller's: to
+ * be given to free(). Where it fails *out is NULL: ARGUMENT (no leaves, a negative number
+ * of threads, an opening of 1 or more), MEMORY. */
+PPS_API pps_status pps_leaf_attenuation_create(const pps_scene *scene,
+                                               const pps_attenuation_options *options,
+                                               float **out);
 
 /* The same by rays, for comparison: the share of each octant that `samples` lines (0: 64)
  * from random points of the leaf find free of leaves and wood. */

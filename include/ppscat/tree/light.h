@@ -19,6 +19,14 @@ typedef enum {
     PPS_ALL_LIGHT = 15
 } pps_light_source;
 
+/* Components of light by the names that the programs use: X(name, pps_light_source, added). */
+#define PPS_LIGHT_COMPONENT_LIST(X)                                                    \
+    X("all", PPS_ALL_LIGHT)                                                            \
+    X("sun", PPS_SUN)                                                                  \
+    X("indirect", PPS_SUN_INDIRECT)                                                    \
+    X("sky", PPS_SKY)                                                                  \
+    X("sky-indirect", PPS_SKY_INDIRECT)
+
 /* Irradiance of both faces of every leaf, averaged over the leaf.
  * front[leaf * n_bands + band]; the arrays are the result's own. */
 typedef struct pps_irradiance {

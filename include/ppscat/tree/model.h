@@ -19,15 +19,21 @@ typedef enum {
     PPS_COMPENSATE_PRINTED  /* the printed shape, upper half sphere */
 } pps_compensation;
 
+/* The same by the names that the programs use: X(name, pps_compensation). */
+#define PPS_COMPENSATION_LIST(X)                                                       \
+    X("none", PPS_COMPENSATE_NONE)                                                     \
+    X("derived", PPS_COMPENSATE_DERIVED)                                               \
+    X("printed", PPS_COMPENSATE_PRINTED)
+
 typedef struct pps_light_options {
     pps_compensation compensate;
     unsigned sources;      /* pps_light_source, added; 0: all that the model has */
     double kappa;          /* `lattice`: escape factor; 0: measured */
     pps_sun_mean sun_mean; /* `leaf`: how it averages over its octants */
-    int threads;
-    const float
-        *att; /* models with takes_attenuations: the scene's pps_leaf_attenuation;
-                         NULL: they are found anew, which takes far longer than the rest */
+    int threads;           /* 0: all cores */
+    /* Models with takes_attenuations: the scene's pps_leaf_attenuation; NULL: they are found
+     * anew, which takes far longer than the rest. */
+    const float *att;
 } pps_light_options;
 
 typedef struct pps_light_model {

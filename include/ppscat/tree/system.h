@@ -43,13 +43,13 @@ typedef struct pps_system_options {
                       very point (SPP section 5.3), not by those of its cell */
     int across;    /* cells across the longest side of a plant's leaves; 0: 16 for GRID,
                        10 for INSTANCES */
-    int texels;    /* of the maps towards the directions; 0: 64 for INSTANCES,
- 256 for GRID */
+    int texels;    /* of the maps towards the directions; 0: 64 for INSTANCES, 256 for
+                       GRID */
     int sun_texels; /* of the sun's maps; 0: 256 */
     int samples;    /* GRID: points a leaf that find its cells; 0: 1 */
     bool by_rays; /* GRID: depths towards the directions by rays from the samples: slow,
- and better by a hundredth */
-    int threads;
+                       and better by a hundredth */
+    int threads;  /* 0: all cores */
 } pps_system_options;
 
 /* A plant as the sun sees it: a prototype, and the yaw of those that stand so. */
@@ -65,8 +65,7 @@ typedef struct pps_system {
     const pps_scene *scene;
     pps_directions directions;
     double seconds[PPS_SYSTEM_STEPS]; /* of each step's last run */
-    bool
-        by_count; /* the sun comes to leaves as e^-count; else leaves are opaque to it */
+    bool by_count; /* the sun comes to leaves as e^-count; else they are opaque to it */
     size_t n_cells;
     double cell;              /* side of the smallest cell, metres */
     uint32_t *cell_of;        /* [scene leaf] */
@@ -87,9 +86,8 @@ typedef struct pps_system {
 
 /* Check and make room. The scene must be indexed, outlive the system, and keep its
  * instances and meshes; sun, sky, ground and optics may change between steps (new optics
- * need 4 and 5 again). MEMORY;
- * ARGUMENT: no leaves, or bad options; UNSUPPORTED: the model has no cells, or INSTANCES
- * with other turns or a scene that repeats. */
+ * need 4 and 5 again). MEMORY; ARGUMENT: no leaves, or bad options; UNSUPPORTED: the model
+ * has no cells, or INSTANCES with other turns or a scene that repeats. */
 PPS_API pps_status pps_system_create(const pps_scene *scene,
                                      const pps_system_options *options,
                                      pps_system **out);
