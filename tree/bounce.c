@@ -65,7 +65,6 @@ void pps_bounce_lambert(const double normal[3], double side, double u, double v,
     for (int i = 0; i < 3; i++) {
         out[i] = side * mu * normal[i] + sine * (c * x[i] + s * y[i]);
     }
-    vec_normalize(out);
 }
 
 bool pps_bounce_ground(const pps_scene *scene, pps_line *line) {

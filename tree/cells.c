@@ -19,6 +19,7 @@
 #include "tree/leafpoint.h"
 #include "tree/rays.h"
 #include "tree/vec.h"
+#include "tree/wood.h"
 
 enum {
     DEFAULT_ACROSS = 16,
@@ -323,6 +324,7 @@ static pps_status reserve(pps_cells_own *own) {
     pps_cells *c = &own->cells;
     size_t n = c->n_cells, nj = n * (size_t)c->directions.n;
     c->area = calloc(n, sizeof *c->area);
+    c->wood = calloc(n, sizeof *c->wood);
     c->cell_of = calloc(own->scene->n_leaves, sizeof *c->cell_of);
     c->n_leaves = calloc(n, sizeof *c->n_leaves);
     c->n_points = calloc(n, sizeof *c->n_points);
@@ -335,9 +337,9 @@ static pps_status reserve(pps_cells_own *own) {
     c->both_clear = calloc(n, sizeof *c->both_clear);
     own->point = malloc((own->n_points + 1) * sizeof *own->point);
     own->first = calloc(n + 2, sizeof *own->first);
-    bool all = c->area && c->cell_of && c->n_leaves && c->n_points && c->sun_depth &&
-               c->sun_behind && c->sun_visibility && c->sun_clear && c->depth &&
-               c->visibility && own->point && own->first;
+    bool all = c->area && c->wood && c->cell_of && c->n_leaves && c->n_points &&
+               c->sun_depth && c->sun_behind && c->sun_visibility && c->sun_clear &&
+               c->depth && c->visibility && own->point && own->first;
     return all ? PPS_OK : PPS_ERR_MEMORY;
 }
 
@@ -350,7 +352,11 @@ static pps_status build(pps_cells_own *own, const pps_cells_options *options) {
     if (!status) {
         status = reserve(own);
     }
-    return status ? status : sort_points(own, threads);
+    if (!status) {
+        pps_wood_measure(own->scene, &own->cells);
+        status = sort_points(own, threads);
+    }
+    return status;
 }
 
 pps_status pps_cells_create(const pps_scene *scene, const pps_cells_options *options,
@@ -399,6 +405,7 @@ void pps_cells_free(pps_cells *cells) {
     free(own->point);
     free(own->first);
     free(cells->area);
+    free(cells->wood);
     free(cells->cell_of);
     free(cells->n_leaves);
     free(cells->n_points);

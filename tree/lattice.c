@@ -16,6 +16,7 @@
 #include "tree/ordinates.h"
 #include "tree/sweep.h"
 #include "tree/vec.h"
+#include "tree/wood.h"
 
 static const double PI = 3.14159265358979323846;
 static const double KAPPA_MIN = 0.5, KAPPA_MAX = 3;
@@ -183,6 +184,7 @@ static pps_status make_state(pps_lattice *l) {
 static void set_leaf_cells(pps_lattice *l, const pps_cells *cells) {
     double face = 2 * cells->size * cells->size;
     for (size_t c = 0, i = 0; c < l->n_cells; c++) {
+        l->depth[c] = (float)pps_wood_depth(cells, c);
         if (!(cells->area[c] > 0)) {
             continue;
         }
@@ -299,49 +301,6 @@ static pps_status plan_sweeps(pps_lattice *l, const pps_cells *cells) {
                             PPS_ORDINATES, (const double(*)[3])to, weight, l->gap);
 }
 
-/* Wood is black and closed: a ray meets a quarter of its surface. Triangles larger than
- * half a cell are split. */
-static void add_wood(pps_lattice *l, const pps_cells *cells,
-                     const double corner[3][3]) {
-    double a[3], b[3], cross[3], edge = 0;
-    vec_sub(corner[1], corner[0], a);
-    vec_sub(corner[2], corner[0], b);
-    vec_cross(a, b, cross);
-    edge = fmax(vec_length(a), vec_length(b));
-    int n = (int)fmin(fmax(ceil(2 * edge / cells->size), 1), 64);
-    float part =
-        (float)(vec_length(cross) / 2 / (n * n) / (4 * cells->size * cells->size));
-    for (int i = 0; i < n * n; i++) { /* row r has 2 r + 1 small triangles */
-        int r = (int)sqrt(i + 0.5), k = i - r * r;
-        double u = (r + (k % 2 ? 1 : 2) / 3.0) / n,
-               v = (k / 2 + (k % 2 ? 2 : 1) / 3.0) / n;
-        double at[3];
-        vec_along(corner[0], u - v, a, at);
-        vec_along(at, v, b, at);
-        long c = pps_grid_cell(cells, at);
-        if (c >= 0) {
-            l->depth[c] += part;
-        }
-    }
-}
-
-static void set_wood(pps_lattice *l, const pps_scene *scene, const pps_cells *cells) {
-    for (size_t k = 0; k < scene->n_instances; k++) {
-        const pps_instance *instance = &scene->instance[k];
-        const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
-        for (size_t t = 0; t < mesh->n_triangles; t++) {
-            double corner[3][3];
-            for (int i = 0; i < 3; i++) {
-                pps_instance_point(instance, mesh->position[mesh->triangle[t][i]],
-                                   corner[i]);
-            }
-            if (mesh->leaf_of[t] == PPS_NO_LEAF) {
-                add_wood(l, cells, (const double(*)[3])corner);
-            }
-        }
-    }
-}
-
 /* (rho - tau) / (rho + tau) of the scene's leaves, by area. */
 static double reflected_excess(const pps_scene *scene, int band) {
     double excess = 0, sum = 0;
@@ -418,7 +377,6 @@ pps_status pps_lattice_create(const pps_scene *scene, const pps_cells *cells,
         status = plan_sweeps(l, cells);
     }
     if (!status) {
-        set_wood(l, scene, cells);
         set_leaf_cells(l, cells);
         status = set_optics(l, scene, cells);
     }

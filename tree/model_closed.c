@@ -9,6 +9,7 @@
  *                   r = m_d / (phi_d - m_s). A quotient of differences: bounded, and each
  *                   of its two parts a mean over 3^3 cells.
  *
+ * The last two go by what is seen, so wood, which is black, takes its share of the albedo.
  * The sky is 22 suns. Ground: black. Reference: docs/theory.md section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -21,6 +22,7 @@
 #include "tree/light_model.h"
 #include "tree/ray_march.h"
 #include "tree/vec.h"
+#include "tree/wood.h"
 
 enum { DIRECTIONS_MAX = 64 };
 static const double RATIO_MAX = 3, SLIGHT = 1e-6;
@@ -92,6 +94,30 @@ static scattered consistent(const place *at) {
 }
 
 /* ---- over cells, bands and lights ---- */
+
+/* Visibilities, and so the depths along the paths, are those of leaves and wood; wood is
+ * black. So what a path meets scatters as leaves do only in their share of the extinction
+ * thereabouts, the mean over 3^3 cells. */
+static pps_status take_wood(const pps_cells *cells, size_t bands, float *albedo) {
+    size_t n = cells->n_cells;
+    double *leaf = calloc(4 * n + 1, sizeof *leaf);
+    if (!leaf) {
+        return PPS_ERR_MEMORY;
+    }
+    double *all = leaf + n, *mean_leaf = all + n, *mean_all = mean_leaf + n;
+    for (size_t c = 0; c < n; c++) {
+        leaf[c] = cells->area[c] / (2 * cells->size * cells->size);
+        all[c] = leaf[c] + pps_wood_depth(cells, c);
+    }
+    pps_grid_smooth(cells, leaf, mean_leaf);
+    pps_grid_smooth(cells, all, mean_all);
+    for (size_t i = 0; i < n * bands; i++) {
+        size_t c = i / bands;
+        albedo[i] *= mean_all[c] > 0 ? (float)(mean_leaf[c] / mean_all[c]) : 1;
+    }
+    free(leaf);
+    return PPS_OK;
+}
 
 typedef struct {
     closed_form form;
@@ -208,6 +234,9 @@ static pps_status solve(const pps_lit_scene *lit, pps_light_field *field,
     scattered *s = calloc(n + 1, sizeof *s);
     pps_status status =
         s ? pps_cell_albedos(lit->scene, cells, &albedo) : PPS_ERR_MEMORY;
+    if (!status && !model.counts) {
+        status = take_wood(cells, bands, albedo);
+    }
     for (int i = 0; !status && i < n_lights; i++) {
         bool sun = lights[i].direction < 0;
         light_cells(lit, &model, &lights[i], albedo, s, sun ? field->g_factor : NULL);

@@ -37,12 +37,15 @@ static void clip_to_layer(const pps_box *cell, const pps_line *line, walk *w) {
     w->far = fmin(w->far, out);
 }
 
-/* What of it lies in the ball about the scene. */
+/* What of it lies in the ball about the scene; a line that starts in there is whole. */
 static void clip_to_ball(const pps_rays *rays, const pps_line *line, walk *w) {
     double from[3];
     vec_sub(line->origin, rays->origin, from);
-    double b = vec_dot(from, line->direction);
-    double inside = rays->radius * rays->radius - (vec_dot(from, from) - b * b);
+    double beyond = vec_dot(from, from) - rays->radius * rays->radius;
+    if (beyond <= 0) {
+        return;
+    }
+    double b = vec_dot(from, line->direction), inside = b * b - beyond;
     double half = sqrt(fmax(inside, 0));
     w->done = fmax(w->done, -b - half);
     w->far = inside > 0 ? fmin(w->far, half - b) : -1;
@@ -86,7 +89,10 @@ static bool cut_piece(walk *w) {
 /* Go on behind the wall where the piece ends; false at the line's end. */
 static bool pass_wall(walk *w) {
     bool passed = false;
-    for (int i = 0; i < 2 && w->rays->periodic; i++) {
+    if (!w->rays->periodic) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
         const pps_box *cell = &w->rays->cell;
         bool wall = w->wall[i] <= w->piece;
         w->at[i] = !wall                 ? w->at[i] + w->piece * w->direction[i]
@@ -111,6 +117,13 @@ static struct RTCRay piece_ray(const walk *w) {
                            .mask = UINT32_MAX};
 }
 
+/* The copy that was hit: instances are numbered as copies are, and so are the meshes that
+ * stand in the scene themselves. */
+static const pps_rays_copy *hit_copy(const pps_rays *rays, const struct RTCHit *hit) {
+    bool itself = hit->instID[0] == RTC_INVALID_GEOMETRY_ID;
+    return &rays->copy[itself ? hit->geomID : hit->instID[0]];
+}
+
 /* ---- queries ---- */
 
 /* What a counting query carries through Embree to its filter. */
@@ -124,7 +137,7 @@ typedef struct {
 static void count_and_pass(const struct RTCFilterFunctionNArguments *args) {
     counter *c = (counter *)(void *)args->context;
     const struct RTCHit *hit = pps_filtered_hit(args);
-    bool leaf = hit->primID < c->rays->copy[hit->instID[0]].n_leaf_triangles;
+    bool leaf = hit->primID < hit_copy(c->rays, hit)->n_leaf_triangles;
     c->leaves += leaf;
     c->wood = c->wood || !leaf;
     args->valid[0] = 0;
@@ -176,7 +189,7 @@ static void turn(const pps_rays_copy *at, const double own[3], double out[3]) {
 
 static void describe_hit(const walk *w, const struct RTCRayHit *found, pps_hit *hit) {
     const pps_rays *rays = w->rays;
-    const pps_rays_copy *at = &rays->copy[found->hit.instID[0]];
+    const pps_rays_copy *at = hit_copy(rays, &found->hit);
     const struct RTCHit *h = &found->hit;
     double piece = (double)found->ray.tfar;
     turn(at, (double[3]){(double)h->Ng_x, (double)h->Ng_y, (double)h->Ng_z},

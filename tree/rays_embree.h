@@ -1,4 +1,5 @@
-/* What stands behind pps_rays: one Embree scene of instances over one geometry a prototype.
+/* What stands behind pps_rays: one Embree scene of instances over one geometry a prototype,
+ * or of that geometry itself where it stands only once.
  *
  * Embree computes in single precision. Prototypes are therefore stored about their own
  * centres and the scene about its centre, and lines that leave a surface start off it by
@@ -24,12 +25,13 @@ typedef struct {
     RTCScene scene;
     double center[3], half[3]; /* box of the mesh, in its own space */
     uint32_t n_leaf_triangles; /* wood comes after */
+    bool once;                 /* it stands at one place only: no instance, no scene */
 } pps_rays_prototype;
 
 /* An instance, seen at one of the places where it repeats. */
 typedef struct {
     uint32_t instance, n_leaf_triangles;
-    double cosine, sine; /* of its yaw */
+    double cosine, sine; /* of its yaw; 1, 0 where Embree's mesh is turned already */
     size_t first_leaf;
     const uint32_t *leaf_of; /* of a triangle */
 } pps_rays_copy;
@@ -39,7 +41,7 @@ struct pps_rays {
     RTCDevice device;
     RTCScene top;
     pps_rays_prototype *prototype;
-    pps_rays_copy *copy; /* numbered as the instances of `top` */
+    pps_rays_copy *copy; /* numbered as the geometries of `top` */
     size_t n_copies;
     bool periodic;
     pps_box cell;

@@ -29,15 +29,20 @@ enum { SUM_ROOM = 4, SQUARE_ROOM = 10 };
 
 static const double UP[3] = {0, 0, 1};
 
+/* Side by side: a visit touches one line of the cache. */
+typedef struct {
+    _Atomic int64_t sum, square;
+} face_sum;
+
 typedef struct {
     const pps_scene *scene;
     pps_rays *rays;
     pps_launch launch;
     uint64_t n_rays, most_bounces;
     unsigned sources;
-    double unit[PPS_BANDS_MAX];    /* of power in the sums: the largest of any ray */
-    double sum_one, square_one;    /* fixed-point 1 */
-    _Atomic int64_t *sum, *square; /* [(leaf * 2 + face) * n_bands + band] */
+    double unit[PPS_BANDS_MAX]; /* of power in the sums: the largest of any ray */
+    double sum_one, square_one; /* fixed-point 1 */
+    face_sum *face;             /* [(leaf * 2 + face) * n_bands + band] */
 } tracer;
 
 /* A ray on its way, with all it has brought to leaves so far: one visit a face. */
@@ -61,10 +66,10 @@ static void keep_visits(const tracer *t, path *p) {
     for (int i = 0; i < p->n_visits; i++) {
         for (int b = 0; b < n_bands; b++) {
             double x = t->unit[b] > 0 ? p->visit[i].power[b] / t->unit[b] : 0;
-            size_t at = p->visit[i].face * (size_t)n_bands + (size_t)b;
-            atomic_fetch_add_explicit(&t->sum[at], llrint(x * t->sum_one),
+            face_sum *at = &t->face[p->visit[i].face * (size_t)n_bands + (size_t)b];
+            atomic_fetch_add_explicit(&at->sum, llrint(x * t->sum_one),
                                       memory_order_relaxed);
-            atomic_fetch_add_explicit(&t->square[at], llrint(x * x * t->square_one),
+            atomic_fetch_add_explicit(&at->square, llrint(x * x * t->square_one),
                                       memory_order_relaxed);
         }
     }
@@ -86,6 +91,8 @@ static void arrive(const tracer *t, path *p, size_t face) {
     if (i == p->n_visits) {
         p->n_visits++;
         p->visit[i] = (visit){.face = face};
+        /* its sums, by the time that the path ends */
+        __builtin_prefetch(&t->face[face * (size_t)t->scene->n_bands], 1);
     }
     for (int b = 0; b < t->scene->n_bands; b++) {
         p->visit[i].power[b] += p->ray.q[b] * p->ray.unit[b];
@@ -244,8 +251,8 @@ static void finish(const tracer *t, pps_irradiance *out) {
         pps_scene_leaf_at(t->scene, leaf, &at);
         for (size_t i = 0; i < 2 * n_bands && at.area > 0; i++) {
             size_t from = leaf * 2 * n_bands + i, b = i % n_bands;
-            double sum = (double)t->sum[from] / t->sum_one;
-            double square = (double)t->square[from] / t->square_one;
+            double sum = (double)t->face[from].sum / t->sum_one;
+            double square = (double)t->face[from].square / t->square_one;
             double variance = sum > 0 ? fmax(square - sum * sum / n, 0) : 1;
             double value = sum * t->unit[b] / at.area;
             double error = sqrt(variance) * t->unit[b] / at.area;
@@ -261,10 +268,8 @@ static pps_status prepare(tracer *t, const pps_trace_options *o) {
     size_t n = 2 * scene->n_leaves * (size_t)scene->n_bands + 1;
     t->sources = o->sources ? o->sources : PPS_ALL_LIGHT;
     t->most_bounces = pps_bounce_most(o);
-    t->sum = calloc(n, sizeof *t->sum);
-    t->square = calloc(n, sizeof *t->square);
-    pps_status status =
-        t->sum && t->square ? pps_rays_create(scene, &t->rays) : PPS_ERR_MEMORY;
+    t->face = calloc(n, sizeof *t->face);
+    pps_status status = t->face ? pps_rays_create(scene, &t->rays) : PPS_ERR_MEMORY;
     if (status) {
         return status;
     }
@@ -309,7 +314,6 @@ pps_status pps_trace_light(const pps_scene *scene, const pps_trace_options *opti
         pps_irradiance_free(result);
     }
     pps_rays_free(t.rays);
-    free(t.sum);
-    free(t.square);
+    free(t.face);
     return status;
 }

@@ -37,6 +37,7 @@ static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
     c->cell_of = malloc(n * sizeof *c->cell_of);
     c->n_leaves = malloc(n * sizeof *c->n_leaves);
     c->n_points = malloc(n * sizeof *c->n_points);
+    c->wood = calloc(n, sizeof *c->wood);
     c->both_clear = calloc(n, sizeof *c->both_clear);
     c->sun_depth = calloc(4 * n, sizeof *c->sun_depth);
     c->sun_behind = c->sun_depth + n;
@@ -55,6 +56,7 @@ static box box_of(int nx, int ny, int nz, bool periodic, double depth) {
 
 static void box_free(box *b) {
     free(b->cells.area);
+    free(b->cells.wood);
     free(b->cells.cell_of);
     free(b->cells.n_leaves);
     free(b->cells.n_points);

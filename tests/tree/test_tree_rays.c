@@ -125,12 +125,27 @@ static void a_hit_tells_where_and_which_face(void **state) {
 
 /* ---- against every triangle in turn ---- */
 
+/* The first instance of the scene, its mesh moved and turned to where it stands. */
+static pps_mesh *mesh_in_place(const pps_scene *scene) {
+    pps_mesh *mesh;
+    pps_crown crown = {PPS_CROWN_CLUMPED, 6, 3000, 5};
+    assert_int_equal(pps_crown_grow(&crown, &mesh), PPS_OK);
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        double at[3];
+        pps_instance_point(&scene->instance[0], mesh->position[i], at);
+        memcpy(mesh->position[i], at, sizeof at);
+    }
+    return mesh;
+}
+
 static bool meets(const pps_mesh *mesh, size_t t, const pps_line *line,
-                  double *distance) {
+                  double *distance, double normal[3]) {
     const uint32_t *c = mesh->triangle[t];
     double ab[3], ac[3], h[3], s[3], q[3];
     vec_sub(mesh->position[c[1]], mesh->position[c[0]], ab);
     vec_sub(mesh->position[c[2]], mesh->position[c[0]], ac);
+    vec_cross(ab, ac, normal);
+    vec_normalize(normal);
     vec_cross(line->direction, ac, h);
     double det = vec_dot(ab, h);
     vec_sub(line->origin, mesh->position[c[0]], s);
@@ -142,24 +157,29 @@ static bool meets(const pps_mesh *mesh, size_t t, const pps_line *line,
            *distance <= line->far && pps_alpha_there(mesh, t, u, v);
 }
 
-static void triangles_are_counted_once(void **state) {
-    (void)state;
-    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 6, 3000, 5);
-    const pps_mesh *mesh = scene->prototype[0].mesh;
+/* A line from above the middle of the crown, on to anywhere. */
+static pps_line line_in_crown(const pps_scene *scene, uint64_t *seed) {
+    double u[6];
+    draw(6, u, seed);
+    double from[3] = {0.6 * u[0], -0.6 * u[1], 2 * u[2] - 1};
+    pps_instance_point(&scene->instance[0], from, from);
+    return line_from(from[0], from[1], from[2], u[3] - 0.5, u[4] - 0.5, u[5] - 0.5);
+}
+
+static void check_against_every_triangle(const pps_scene *scene) {
+    pps_mesh *mesh = mesh_in_place(scene);
     pps_rays *rays = make_rays(scene);
     uint64_t seed = 2;
     int differ = 0, sum = 0;
     for (int i = 0; i < 2000; i++) {
-        double u[6];
-        draw(6, u, &seed);
-        pps_line line = line_from(0.6 * u[0], -0.6 * u[1], 2 * u[2] - 1, u[3] - 0.5,
-                                  u[4] - 0.5, u[5] - 0.5);
+        pps_line line = line_in_crown(scene, &seed);
         int want = 0;
-        double nearest = INFINITY;
+        double nearest = INFINITY, normal[3] = {0, 0, 0};
         for (size_t t = 0; t < mesh->n_triangles; t++) {
-            double d;
-            if (meets(mesh, t, &line, &d)) {
+            double d, n[3];
+            if (meets(mesh, t, &line, &d, n)) {
                 want++;
+                memcpy(normal, d < nearest ? n : normal, sizeof normal);
                 nearest = fmin(nearest, d);
             }
         }
@@ -171,12 +191,29 @@ static void triangles_are_counted_once(void **state) {
         assert_int_equal(pps_rays_occluded(rays, &line), want > 0);
         if (want) {
             assert_close(hit.distance, nearest, 1e-5, 1e-5);
+            assert_close(vec_dot(hit.normal, normal), 1, 1e-5, 0);
+            assert_int_equal(hit.instance, 0);
         }
         sum += want;
     }
     assert_in_range(sum, 3000, 30000); /* the test means something */
     assert_in_range(differ, 0, 2);     /* rays within rounding of an edge */
     pps_rays_free(rays);
+    pps_mesh_free(mesh);
+}
+
+/* Whether a mesh stands once, or is one of two that are turned and scaled. */
+static void triangles_are_counted_once(void **state) {
+    (void)state;
+    pps_scene *scene = crown_scene(PPS_CROWN_CLUMPED, 6, 3000, 5);
+    check_against_every_triangle(scene);
+    scene->instance[0] = (pps_instance){0, {3, -2, 1}, 77, 0.6};
+    check_against_every_triangle(scene);
+    scene->instance = realloc(scene->instance, 2 * sizeof *scene->instance);
+    scene->n_instances = 2;
+    scene->instance[1] = (pps_instance){0, {-9, 0, 0}, 30, 0.001}; /* out of the way */
+    assert_int_equal(pps_scene_index(scene), PPS_OK);
+    check_against_every_triangle(scene);
     pps_scene_free(scene);
 }
 

@@ -49,6 +49,7 @@ typedef struct pps_cells {
     size_t n_cells;
     pps_directions directions;
     double *area;       /* one-sided alpha-weighted leaf area, m^2 */
+    double *wood;       /* surface of branches, m^2 */
     uint32_t *cell_of;  /* per scene leaf */
     uint32_t *n_leaves; /* per cell */
     uint32_t *n_points; /* per cell: points that the means are over */
