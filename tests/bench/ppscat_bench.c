@@ -436,7 +436,7 @@ static void eigenproblems(void) {
 }
 
 int main(int argc, char **argv) {
-    if (argc > 2) {
+    if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
         fprintf(stderr, "usage: ppscat-bench [FILE.csv]\n");
         return 2;
     }
