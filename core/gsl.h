@@ -7,10 +7,6 @@
 #ifndef PPS_CORE_GSL_H
 #define PPS_CORE_GSL_H
 
-/* Complete elliptic integral E(m), m = k^2, by the complement 1 - m in [0, 1], which keeps
- * its digits near m = 1. */
-double pps_elliptic_e(double complement);
-
 /* Carlson's R_F(0, 1, y) and R_J(0, 1, y, p) for y > 0, p > 0. */
 double pps_carlson_f(double y);
 double pps_carlson_j(double y, double p);

@@ -7,27 +7,30 @@
 
 #include <ppscat/phase.h>
 
-#include "core/mode.h"
+#include "core/beam.h"
+#include "core/phase.h"
 #include "core/quadrature.h"
 
 static const double PI = 3.14159265358979323846;
 
-enum { PANEL_POINTS = 16 };
-static const double PANEL_RATIO =
-    4; /* 16 points then hold 1e-15 beside a singularity */
+static const double PANEL_RATIO = 4; /* a panel then holds 1e-15 beside a singularity */
 
 typedef struct {
-    pps_radiance_of_mu radiance;
+    pps_radiances_of_mu radiances;
     const void *context;
-    double node[PANEL_POINTS], weight[PANEL_POINTS];
+    double node[PPS_PANEL], weight[PPS_PANEL];
     pps_hemisphere sum;
 } integration;
 
 static void panel(integration *in, double from, double to) {
-    for (int i = 0; i < PANEL_POINTS; i++) {
-        double mu = from + (to - from) * in->node[i];
-        double part = (to - from) * in->weight[i] * in->radiance(in->context, mu);
-        in->sum.flux += 2 * PI * mu * part;
+    double mu[PPS_PANEL], radiance[PPS_PANEL];
+    for (int i = 0; i < PPS_PANEL; i++) {
+        mu[i] = from + (to - from) * in->node[i];
+    }
+    in->radiances(in->context, PPS_PANEL, mu, radiance);
+    for (int i = 0; i < PPS_PANEL; i++) {
+        double part = (to - from) * in->weight[i] * radiance[i];
+        in->sum.flux += 2 * PI * mu[i] * part;
         in->sum.mean += part / 2;
     }
 }
@@ -44,13 +47,14 @@ static void graded(integration *in, double at, double to, double smallest) {
     }
 }
 
-pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *context,
-                                       double run, double mu0, double g) {
-    integration in = {.radiance = radiance, .context = context};
+pps_hemisphere pps_hemisphere_integral(pps_radiances_of_mu radiances,
+                                       const void *context, double run, double mu0,
+                                       double g) {
+    integration in = {.radiances = radiances, .context = context};
     if (run <= 0) {
         return in.sum;
     }
-    pps_gauss_unit(PANEL_POINTS, in.node, in.weight);
+    pps_gauss_unit(PPS_PANEL, in.node, in.weight);
     double grazing = fmax(fmin(run, 1) / 40, 1e-300);
     double peak = fmin(mu0, fmax(0.1 * (1 - fabs(g)) * (1 - fabs(g)), 1e-15));
     graded(&in, 0, mu0 / 2, grazing);
@@ -62,25 +66,33 @@ pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *
 }
 
 typedef struct {
-    double g, mu0, w, tau, sign;
+    double g, mu0, w, tau;
+    int down;
 } single;
 
-static double single_radiance(const void *context, double mu) {
+static void single_radiances(const void *context, size_t n, const double *mu,
+                             double *radiance) {
     const single *s = context;
-    pps_ray ray;
-    pps_ray_init(&ray, s->w, 1 / s->mu0, s->tau, s->sign * mu);
-    return pps_hg_azimuth_mean(s->g, s->sign * mu, s->mu0) * ray.beam;
+    double beam[PPS_PANEL];
+    pps_hg_azimuth_means(s->down ? s->g : -s->g, s->mu0, n, mu, radiance);
+    pps_beam_integrals(s->mu0, s->tau, s->w - s->tau, s->down, n, mu, beam);
+    for (size_t i = 0; i < n; i++) {
+        radiance[i] *= beam[i];
+    }
 }
 
 pps_hemisphere pps_single_hemisphere(double g, double mu0, double w, double tau,
                                      int down) {
-    single context = {g, mu0, w, tau, down ? 1 : -1};
-    return pps_hemisphere_integral(single_radiance, &context, down ? tau : w - tau, mu0,
-                                   g);
+    single context = {g, mu0, w, tau, down};
+    return pps_hemisphere_integral(single_radiances, &context, down ? tau : w - tau,
+                                   mu0, g);
 }
 
-static double backward(const void *context, double mu) {
-    return pps_hg_backward(*(const double *)context, mu);
+static void backward(const void *context, size_t n, const double *mu,
+                     double *fraction) {
+    for (size_t i = 0; i < n; i++) {
+        fraction[i] = pps_hg_backward(*(const double *)context, mu[i]);
+    }
 }
 
 double pps_hg_backward_diffuse(double g) {

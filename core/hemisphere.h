@@ -4,8 +4,13 @@
 #ifndef PPS_CORE_HEMISPHERE_H
 #define PPS_CORE_HEMISPHERE_H
 
-/* An azimuthally averaged radiance as a function of |mu| in (0, 1). */
-typedef double (*pps_radiance_of_mu)(const void *context, double mu);
+#include <stddef.h>
+
+enum { PPS_PANEL = 16 }; /* points of a Gauss panel */
+
+/* Azimuthally averaged radiances at the n = PPS_PANEL directions |mu| in (0, 1). */
+typedef void (*pps_radiances_of_mu)(const void *context, size_t n, const double *mu,
+                                    double *radiance);
 
 typedef struct pps_hemisphere {
     double flux; /* 2 pi int_0^1 mu I dmu */
@@ -15,8 +20,9 @@ typedef struct pps_hemisphere {
 /* run: optical depth to the edge where the radiance starts from 0 (may be infinite);
  * mu0, g: where the phase function peaks and how sharply. Relative accuracy 1e-12: Gauss
  * panels that shrink towards mu = 0 (to run / 40) and towards mu0. */
-pps_hemisphere pps_hemisphere_integral(pps_radiance_of_mu radiance, const void *context,
-                                       double run, double mu0, double g);
+pps_hemisphere pps_hemisphere_integral(pps_radiances_of_mu radiances,
+                                       const void *context, double run, double mu0,
+                                       double g);
 
 /* Single scattering of a beam along mu0 in a slab of thickness w, per unit albedo, with
  * the exact phase function: downward or upward hemisphere at depth tau. */

@@ -5,7 +5,10 @@
 
 #include <ppscat/phase.h>
 
+#include "core/elliptic.h"
 #include "core/gsl.h"
+#include "core/phase.h"
+#include "core/vector.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -35,21 +38,36 @@ double pps_cos_scattering(double mu0, double mu, double phi) {
 }
 
 /* integral over phi of (a - b cos phi)^(-3/2) is 4 E(2b/(a+b)) / ((a - b) sqrt(a + b)). */
-double pps_hg_azimuth_mean(double g, double mu, double mu0) {
-    if (g < 0) { /* p(-g; mu) = p(g; -mu): work with the forward peak */
-        g = -g;
-        mu = -mu;
+PPS_CLONES void pps_hg_azimuth_means(double g, double mu0, size_t n, const double *mu,
+                                     double *mean) {
+    double size = fabs(g), side = g < 0 ? -1 : 1; /* p(-g; mu) = p(g; -mu) */
+    double sine0 = sqrt((1 - mu0) * (1 + mu0)), width = (1 - size) * (1 - size);
+    double power = (1 - size) * (1 + size) / (2 * PI * PI);
+    for (size_t at = 0; at < n; at += PPS_LANES) {
+        double a_minus_b[PPS_LANES], a_plus_b[PPS_LANES], e[PPS_LANES];
+        for (int l = 0; l < PPS_LANES; l++) {
+            /* a - b = (1-g)^2 + 2 g (1 - cos(theta - theta0)), the difference of angles
+             * taken without cancellation: 1 - cos = 2 sin^2(half), from the chord. */
+            double x = side * mu[at + (size_t)l], sine = sqrt((1 - x) * (1 + x));
+            double chord2 = (x - mu0) * (x - mu0) + (sine - sine0) * (sine - sine0);
+            a_minus_b[l] = width + size * chord2;
+            a_plus_b[l] = a_minus_b[l] + 4 * size * sine * sine0;
+            e[l] = a_minus_b[l] / a_plus_b[l];
+        }
+        pps_elliptic_e(PPS_LANES, e);
+        for (int l = 0; l < PPS_LANES; l++) {
+            mean[at + (size_t)l] = power * e[l] / (a_minus_b[l] * sqrt(a_plus_b[l]));
+        }
     }
-    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu));
-    double b = 2 * g * sines;
-    /* a - b = (1-g)^2 + 2 g (1 - cos(theta - theta0)), the difference of angles taken
-     * without cancellation: 1 - cos = 2 sin^2(half), sin^2(half) from the chord. */
-    double sine = sqrt((1 - mu) * (1 + mu)), sine0 = sqrt((1 - mu0) * (1 + mu0));
-    double chord2 = (mu - mu0) * (mu - mu0) + (sine - sine0) * (sine - sine0);
-    double a_minus_b = (1 - g) * (1 - g) + g * chord2;
-    double a_plus_b = a_minus_b + 2 * b;
-    double e = pps_elliptic_e(a_minus_b / a_plus_b);
-    return (1 - g) * (1 + g) * e / (2 * PI * PI * a_minus_b * sqrt(a_plus_b));
+}
+
+double pps_hg_azimuth_mean(double g, double mu, double mu0) {
+    double cosine[PPS_LANES], mean[PPS_LANES];
+    for (int l = 0; l < PPS_LANES; l++) {
+        cosine[l] = mu;
+    }
+    pps_hg_azimuth_means(g, mu0, PPS_LANES, cosine, mean);
+    return mean[0];
 }
 
 /* integral over (0, pi/2) of du / ((p c^2 + q s^2) sqrt(a c^2 + b s^2)), c = cos u,

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/hemisphere.h"
 #include "core/lanes.h"
 #include "core/series.h"
 #include "solver/dom.h"
+#include "solver/thin.h"
 #include <ppscat/expdiff.h>
 
 static const double PI = 3.14159265358979323846;
@@ -248,62 +248,6 @@ static double flux_up(const pps_dom *dom, size_t b, double tau, double flux,
     return fabs(flux) >= CANCELLED * size ? flux : flux_by_nodes(dom, b, tau, -1);
 }
 
-/* Thin slabs. Single scattering dominates there, and directions mu ~ thickness, which no
- * node resolves, carry much of the mean intensity. Below this thickness fluxes and mean
- * intensity take their single-scattering part from the exact integral, as radiances
- * always do. What is left, multiple scattering, is scaled with the energy that single
- * scattering hands over to it, so that energy is conserved to rounding as before. */
-static const double THIN = 0.1;
-
-/* What the discrete problem has of single scattering in one hemisphere. */
-static pps_hemisphere discrete_single(const pps_dom *dom, double mu0, double scaled,
-                                      int down) {
-    const pps_discrete *d = &dom->discrete;
-    pps_hemisphere sum = {0};
-    for (int i = 0; i < d->n; i++) {
-        pps_ray ray;
-        double mu = down ? d->mu[i] : -d->mu[i];
-        pps_ray_init(&ray, dom->slab.thickness * dom->stretch, 1 / mu0, scaled, mu);
-        double part = d->weight[i] * ray.beam * pps_discrete_single(d, mu, mu0);
-        sum.flux += 2 * PI * d->mu[i] * part;
-        sum.mean += part / 2;
-    }
-    return sum;
-}
-
-static pps_hemisphere exact_single(const pps_dom *dom, double mu0, double tau,
-                                   int down) {
-    const pps_slab *slab = &dom->slab;
-    pps_hemisphere h = pps_single_hemisphere(slab->g, mu0, slab->thickness, tau, down);
-    return (pps_hemisphere){slab->albedo * h.flux, slab->albedo * h.mean};
-}
-
-/* What is scattered once and meets the slab again, exact over discrete. */
-static double multiple_scale(const pps_dom *dom, double mu0) {
-    double w = dom->slab.thickness, scaled = w * dom->stretch;
-    double exact = -dom->slab.albedo * mu0 * expm1(-w / mu0) -
-                   exact_single(dom, mu0, 0, 0).flux -
-                   exact_single(dom, mu0, w, 1).flux;
-    double discrete = -dom->discrete.albedo * mu0 * expm1(-scaled / mu0) -
-                      discrete_single(dom, mu0, 0, 0).flux -
-                      discrete_single(dom, mu0, scaled, 1).flux;
-    return exact > 0 && discrete > 0 ? exact / discrete : 1;
-}
-
-static void correct_single(const pps_dom *dom, double mu0, double tau, double scale,
-                           pps_flux *flux) {
-    double mean = 0;
-    for (int down = 0; down < 2; down++) {
-        pps_hemisphere exact = exact_single(dom, mu0, tau, down);
-        pps_hemisphere discrete = discrete_single(dom, mu0, tau * dom->stretch, down);
-        double *hemisphere = down ? &flux->down : &flux->up;
-        *hemisphere = exact.flux + scale * (*hemisphere - discrete.flux);
-        flux->mean_diffuse -= discrete.mean;
-        mean += exact.mean;
-    }
-    flux->mean_diffuse = mean + scale * flux->mean_diffuse;
-}
-
 /* ---- all together ---- */
 
 /* The beams at the depths, without gaps: beam l at depth k stands at [k * n + l], n beams
@@ -340,7 +284,7 @@ PPS_CLONES static void beams_at(size_t n, const double *rates, size_t n_tau,
 /* Beam l of the block, which stands at [here] of `beams`. */
 static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
                              const mode_sums *sum, const beams_here *beams, size_t here,
-                             double thin_scale) {
+                             const pps_thin *thin) {
     const pps_dom *dom = block->dom;
     size_t b = block->first + l;
     double mu0 = dom->beams.mu0[b], scaled = tau * dom->stretch;
@@ -351,8 +295,8 @@ static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
         .direct = mu0 * direct,
         .mean_diffuse = sum->mean[l],
     };
-    if (thin_scale > 0) {
-        correct_single(dom, mu0, tau, thin_scale, &flux);
+    if (thin) {
+        pps_thin_correct(thin, b, tau, &flux);
     } else if (!dom->beams.sky) {
         flux.down += mu0 * beams->peak[here];
         flux.mean_diffuse += beams->peak[here] / (4 * PI);
@@ -363,7 +307,7 @@ static pps_flux flux_of_beam(const beam_block *block, size_t l, double tau,
 
 /* flux[l * stride + k]. */
 static void block_fluxes(const beam_block *block, const depths *at,
-                         const double *thin_scale, size_t stride, pps_flux *flux) {
+                         const pps_thin *thin, size_t stride, pps_flux *flux) {
     const pps_dom *dom = block->dom;
     mode_sums sum[DEPTHS];
     beams_here beams;
@@ -379,27 +323,21 @@ static void block_fluxes(const beam_block *block, const depths *at,
                          decay, beams.scaled + here, &sum[k]);
         sum_special(block, at->scaled[k], decay, beams.scaled + here, &sum[k]);
         for (size_t l = 0; l < block->n; l++) {
-            flux[l * stride + k] = flux_of_beam(block, l, at->tau[k], &sum[k], &beams,
-                                                here + l, thin_scale[l]);
+            flux[l * stride + k] =
+                flux_of_beam(block, l, at->tau[k], &sum[k], &beams, here + l, thin);
         }
     }
 }
 
 /* All beams at up to DEPTHS depths. */
-static void fluxes_at(const pps_dom *dom, size_t n_tau, const double *tau,
-                      size_t stride, pps_flux *flux) {
-    const pps_beams *beams = &dom->beams;
-    bool thin = dom->corrected && !beams->sky && dom->slab.thickness < THIN;
+static void fluxes_at(const pps_dom *dom, const pps_thin *thin, size_t n_tau,
+                      const double *tau, size_t stride, pps_flux *flux) {
     depths at;
     depths_at(dom, n_tau, tau, &at);
-    for (size_t b = 0; b < beams->n; b += PPS_LANES) {
-        size_t left = beams->n - b;
+    for (size_t b = 0; b < dom->beams.n; b += PPS_LANES) {
+        size_t left = dom->beams.n - b;
         beam_block block = {dom, b, left < PPS_LANES ? left : PPS_LANES};
-        double scale[PPS_LANES] = {0};
-        for (size_t l = 0; l < block.n && thin; l++) {
-            scale[l] = multiple_scale(dom, beams->mu0[b + l]);
-        }
-        block_fluxes(&block, &at, scale, stride, flux + b * stride);
+        block_fluxes(&block, &at, thin, stride, flux + b * stride);
     }
 }
 
@@ -408,8 +346,13 @@ pps_status pps_dom_flux(const pps_dom *dom, size_t n, const double *tau,
     if (dom->beams.n == 0 || !flux || pps_tau_check(n, tau, dom->slab.thickness)) {
         return PPS_ERR_ARGUMENT;
     }
-    for (size_t k = 0; k < n; k += DEPTHS) {
-        fluxes_at(dom, n - k < DEPTHS ? n - k : DEPTHS, tau + k, n, flux + k);
+    pps_thin *thin = NULL;
+    if (pps_thin_applies(dom) && pps_thin_create(dom, &thin)) {
+        return PPS_ERR_MEMORY;
     }
+    for (size_t k = 0; k < n; k += DEPTHS) {
+        fluxes_at(dom, thin, n - k < DEPTHS ? n - k : DEPTHS, tau + k, n, flux + k);
+    }
+    pps_thin_free(thin);
     return PPS_OK;
 }

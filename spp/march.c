@@ -8,6 +8,7 @@
 #include <ppscat/phase.h>
 
 #include "core/hemisphere.h"
+#include "core/phase.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -44,17 +45,22 @@ typedef struct {
     double tau, sign;
 } hemisphere;
 
-static double azimuth_mean(const void *context, double abs_mu) {
+static void azimuth_means(const void *context, size_t n, const double *abs_mu,
+                          double *radiance) {
     const hemisphere *h = context;
     const pps_march *march = h->march;
-    double mu = h->sign * abs_mu;
-    pps_ray ray;
-    pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, h->tau, mu);
-    double source = diffuse_part(march, &ray, mu);
-    if (!march->sky) {
-        source += pps_hg_azimuth_mean(march->slab.g, mu, march->mu0) * ray.beam;
+    double mean[PPS_PANEL];
+    pps_hg_azimuth_means(h->sign * march->slab.g, march->mu0, n, abs_mu, mean);
+    for (size_t i = 0; i < n; i++) {
+        double mu = h->sign * abs_mu[i];
+        pps_ray ray;
+        pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, h->tau, mu);
+        double source = diffuse_part(march, &ray, mu);
+        if (!march->sky) {
+            source += mean[i] * ray.beam;
+        }
+        radiance[i] = march->slab.albedo * source + uncollided(march, &ray);
     }
-    return march->slab.albedo * source + uncollided(march, &ray);
 }
 
 void pps_march_flux(const pps_march *march, size_t n, const double *tau,
@@ -63,9 +69,9 @@ void pps_march_flux(const pps_march *march, size_t n, const double *tau,
     for (size_t i = 0; i < n; i++) {
         hemisphere down = {march, tau[i], 1}, up = {march, tau[i], -1};
         double run = march->sky && tau[i] == 0 ? 1 : tau[i]; /* sky light starts full */
-        pps_hemisphere d = pps_hemisphere_integral(azimuth_mean, &down, run, mu0, g);
+        pps_hemisphere d = pps_hemisphere_integral(azimuth_means, &down, run, mu0, g);
         pps_hemisphere u =
-            pps_hemisphere_integral(azimuth_mean, &up, w - tau[i], mu0, g);
+            pps_hemisphere_integral(azimuth_means, &up, w - tau[i], mu0, g);
         double beam = march->sky ? 0 : exp(-tau[i] / mu0);
         flux[i] = (pps_flux){.up = u.flux,
                              .down = d.flux,

@@ -8,6 +8,9 @@
 
 #include <ppscat/phase.h>
 
+#include "core/phase.h"
+#include "core/vector.h"
+
 #include "core/quadrature.h"
 
 static const double PI = 3.14159265358979323846;
@@ -99,6 +102,36 @@ static void azimuth_mean_is_the_mean_over_azimuth(void **state) {
                              1e-14 + 2 * DBL_EPSILON / width, 0);
             }
         }
+    }
+}
+
+/* Of a beam along the normal, or in that direction, nothing depends on azimuth. */
+static void along_the_normal_the_mean_is_the_phase_function(void **state) {
+    (void)state;
+    static const double cosines[] = {-1, -0.7, -1e-9, 1e-9, 0.3, 0.999, 1};
+    for (int i = 0; i < N_ASYMMETRIES; i++) {
+        for (size_t j = 0; j < sizeof cosines / sizeof *cosines; j++) {
+            double mu = cosines[j], want = pps_hg(asymmetries[i], mu);
+            assert_close(pps_hg_azimuth_mean(asymmetries[i], mu, 1), want, 1e-14, 0);
+            if (mu > 0) {
+                assert_close(pps_hg_azimuth_mean(asymmetries[i], 1, mu), want, 1e-14,
+                             0);
+            }
+        }
+    }
+}
+
+/* Many at once are each by itself, to the last bit, wherever they stand. */
+static void azimuth_means_do_not_know_each_other(void **state) {
+    (void)state;
+    enum { N = 2 * PPS_LANES };
+    double mu[N], mean[N];
+    for (int k = 0; k < N; k++) {
+        mu[k] = -1 + (2 * k + 1) / (double)N;
+    }
+    pps_hg_azimuth_means(-0.8, 0.3, N, mu, mean);
+    for (int k = 0; k < N; k++) {
+        assert_close(mean[k], pps_hg_azimuth_mean(-0.8, mu[k], 0.3), 0, 0);
     }
 }
 
@@ -228,6 +261,8 @@ int main(void) {
         cmocka_unit_test(mean_cosine_is_the_asymmetry_parameter),
         cmocka_unit_test(forward_peak_keeps_its_digits),
         cmocka_unit_test(azimuth_mean_is_the_mean_over_azimuth),
+        cmocka_unit_test(along_the_normal_the_mean_is_the_phase_function),
+        cmocka_unit_test(azimuth_means_do_not_know_each_other),
         cmocka_unit_test(backward_fraction_is_the_integral_over_the_other_hemisphere),
         cmocka_unit_test(opposite_asymmetries_share_all_light),
         cmocka_unit_test(series_and_elliptic_form_meet),

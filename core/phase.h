@@ -1,0 +1,14 @@
+/* The phase function in many directions at once: vector loops.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PPS_CORE_PHASE_H
+#define PPS_CORE_PHASE_H
+
+#include <stddef.h>
+
+/* mean[i] = pps_hg_azimuth_mean(g, mu[i], mu0), to 1e-14; n is a multiple of PPS_LANES
+ * (core/vector.h). At -mu it is that of -g. */
+void pps_hg_azimuth_means(double g, double mu0, size_t n, const double *mu,
+                          double *mean);
+
+#endif
