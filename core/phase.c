@@ -37,6 +37,20 @@ double pps_cos_scattering(double mu0, double mu, double phi) {
     return fmax(-1, fmin(1, mu0 * mu + sines * pps_cos_degrees(phi)));
 }
 
+PPS_CLONES void pps_hg_azimuths(double g, double mu0, double mu, size_t n,
+                                const double *restrict cosine, double *restrict p) {
+    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu)), size = fabs(g);
+    double peak = (1 - size) * (1 - size), side = g < 0 ? -1 : 1;
+    double power = (1 - g) * (1 + g) / (4 * PI);
+    for (size_t i = 0; i < n; i++) {
+        double x = mu0 * mu + sines * cosine[i];
+        x = x > 1 ? 1 : x;
+        x = x < -1 ? -1 : x;
+        double base = peak + 2 * size * (1 - side * x);
+        p[i] = power / (base * sqrt(base));
+    }
+}
+
 /* integral over phi of (a - b cos phi)^(-3/2) is 4 E(2b/(a+b)) / ((a - b) sqrt(a + b)). */
 PPS_CLONES void pps_hg_azimuth_means(double g, double mu0, size_t n, const double *mu,
                                      double *mean) {

@@ -11,4 +11,8 @@
 void pps_hg_azimuth_means(double g, double mu0, size_t n, const double *mu,
                           double *mean);
 
+/* p[i] = pps_hg(g, cos Theta) from mu0 to mu at n azimuths of these cosines. */
+void pps_hg_azimuths(double g, double mu0, double mu, size_t n, const double *cosine,
+                     double *p);
+
 #endif

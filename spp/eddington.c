@@ -49,11 +49,16 @@ static pps_status eddington_solve_sky(void *state, double thickness) {
     return PPS_OK;
 }
 
-static double diffuse(const void *solution, const pps_ray *ray, double mu) {
+static void terms(const void *solution, const pps_ray *ray, double term[2]) {
     const eddington *d = solution;
-    double sum, difference;
-    pps_twostream_ray(&d->two, ray, &sum, &difference);
-    return sum / (2 * PI) + 3 * d->slab.g * mu * difference / (4 * PI);
+    pps_twostream_ray(&d->two, ray, &term[0], &term[1]);
+}
+
+/* Of the sum of the fluxes and of their difference. */
+static void shares(const void *solution, double mu, double share[2]) {
+    const eddington *d = solution;
+    share[0] = 1 / (2 * PI);
+    share[1] = 3 * d->slab.g * mu / (4 * PI);
 }
 
 static pps_status eddington_radiance(void *state, const pps_grid *at,
@@ -61,7 +66,8 @@ static pps_status eddington_radiance(void *state, const pps_grid *at,
     const eddington *d = state;
     pps_march march = {.slab = d->slab,
                        .mu0 = d->mu0,
-                       .diffuse = diffuse,
+                       .shares = shares,
+                       .terms = terms,
                        .solution = d,
                        .sky = d->sky};
     pps_march_radiance(&march, at, radiance);

@@ -12,29 +12,55 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double diffuse_part(const pps_march *march, const pps_ray *ray, double mu) {
-    return march->diffuse ? march->diffuse(march->solution, ray, mu) : 0;
+static void shares_of(const pps_march *march, double mu, double share[2]) {
+    share[0] = share[1] = 0;
+    if (march->shares) {
+        march->shares(march->solution, mu, share);
+    }
 }
 
-/* What does not scatter in the slab: sky light on its way down. */
-static double uncollided(const pps_march *march, const pps_ray *ray) {
-    return march->sky && ray->down ? ray->ect : 0;
+/* What does not depend on azimuth: multiple scattering, and sky light on its way down. */
+static double diffuse_part(const pps_march *march, const double share[2],
+                           const pps_ray *ray) {
+    double sum = march->sky && ray->down ? ray->ect : 0, term[2];
+    if (march->shares) {
+        march->terms(march->solution, ray, term);
+        sum += march->slab.albedo * (share[0] * term[0] + share[1] * term[1]);
+    }
+    return sum;
+}
+
+/* Azimuths of a direction that are handled together. */
+enum { AZIMUTHS = 64 };
+
+/* All depths in direction j, azimuths first .. first + n - 1. */
+static void march_direction(const pps_march *march, const pps_grid *at, size_t j,
+                            size_t first, size_t n, const double *cosine,
+                            double *radiance) {
+    double mu = at->mu[j], share[2], phase[AZIMUTHS];
+    shares_of(march, mu, share);
+    pps_hg_azimuths(march->slab.g, march->mu0, mu, n, cosine, phase);
+    for (size_t k = 0; k < at->n_tau; k++) {
+        pps_ray ray;
+        pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, at->tau[k], mu);
+        double diffuse = diffuse_part(march, share, &ray);
+        double beam = march->sky ? 0 : march->slab.albedo * ray.beam;
+        double *out = radiance + (k * at->n_mu + j) * at->n_phi + first;
+        for (size_t i = 0; i < n; i++) {
+            out[i] = diffuse + beam * phase[i];
+        }
+    }
 }
 
 void pps_march_radiance(const pps_march *march, const pps_grid *at, double *radiance) {
-    double albedo = march->slab.albedo, g = march->slab.g;
-    for (size_t k = 0; k < at->n_tau; k++) {
+    for (size_t first = 0; first < at->n_phi; first += AZIMUTHS) {
+        size_t left = at->n_phi - first, n = left < AZIMUTHS ? left : AZIMUTHS;
+        double cosine[AZIMUTHS];
+        for (size_t i = 0; i < n; i++) {
+            cosine[i] = pps_cos_degrees(at->phi[first + i]);
+        }
         for (size_t j = 0; j < at->n_mu; j++) {
-            pps_ray ray;
-            pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, at->tau[k],
-                         at->mu[j]);
-            double diffuse =
-                albedo * diffuse_part(march, &ray, at->mu[j]) + uncollided(march, &ray);
-            double beam = march->sky ? 0 : albedo * ray.beam;
-            for (size_t i = 0; i < at->n_phi; i++) {
-                double x = pps_cos_scattering(march->mu0, at->mu[j], at->phi[i]);
-                *radiance++ = diffuse + beam * pps_hg(g, x);
-            }
+            march_direction(march, at, j, first, n, cosine, radiance);
         }
     }
 }
@@ -55,11 +81,12 @@ static void azimuth_means(const void *context, size_t n, const double *abs_mu,
         double mu = h->sign * abs_mu[i];
         pps_ray ray;
         pps_ray_init(&ray, march->slab.thickness, 1 / march->mu0, h->tau, mu);
-        double source = diffuse_part(march, &ray, mu);
+        double share[2];
+        shares_of(march, mu, share);
+        radiance[i] = diffuse_part(march, share, &ray);
         if (!march->sky) {
-            source += mean[i] * ray.beam;
+            radiance[i] += march->slab.albedo * mean[i] * ray.beam;
         }
-        radiance[i] = march->slab.albedo * source + uncollided(march, &ray);
     }
 }
 

@@ -15,15 +15,17 @@
 
 #include "core/mode.h"
 
-/* The diffuse part of the source integrated along a ray in direction mu, without the
- * factor albedo. */
-typedef double (*pps_march_diffuse)(const void *solution, const pps_ray *ray,
-                                    double mu);
+/* The diffuse part of the source, without the factor albedo, has two terms: what share of
+ * them goes into direction mu, and what they are integrated along a ray (D and U above). */
+typedef void (*pps_march_shares)(const void *solution, double mu, double share[2]);
+typedef void (*pps_march_terms)(const void *solution, const pps_ray *ray,
+                                double term[2]);
 
 typedef struct pps_march {
     pps_slab slab;
     double mu0;
-    pps_march_diffuse diffuse; /* NULL: single scattering only */
+    pps_march_shares shares; /* NULL: single scattering only */
+    pps_march_terms terms;
     const void *solution;
     bool sky; /* no beam in the source, but uncollided light of radiance 1 from above */
 } pps_march;

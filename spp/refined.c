@@ -35,16 +35,22 @@ static double ray_down(const pps_spp *spp, const pps_ray *ray) {
            rho * ray_up(spp, ray);
 }
 
-static double diffuse(const void *solution, const pps_ray *ray, double mu) {
+static void terms(const void *solution, const pps_ray *ray, double term[2]) {
+    const spp_state *s = solution;
+    term[0] = ray_down(&s->spp, ray);
+    term[1] = ray_up(&s->spp, ray);
+    if (s->sky) { /* the light that falls in is diffuse itself */
+        term[0] = 2 * PI * (term[0] + ray->beam);
+        term[1] *= 2 * PI;
+    }
+}
+
+static void shares(const void *solution, double mu, double share[2]) {
     const spp_state *s = solution;
     double opposite = pps_hg_backward(s->slab.g, fabs(mu)) / (2 * PI); /* R at |mu| */
     double same = 1 / (2 * PI) - opposite;
-    double down = ray_down(&s->spp, ray), up = ray_up(&s->spp, ray);
-    if (s->sky) { /* the light that falls in is diffuse itself */
-        down = 2 * PI * (down + ray->beam);
-        up *= 2 * PI;
-    }
-    return mu > 0 ? same * down + opposite * up : opposite * down + same * up;
+    share[0] = mu > 0 ? same : opposite;
+    share[1] = mu > 0 ? opposite : same;
 }
 
 static pps_status refined_init(void *state, const pps_slab *slab,
@@ -68,7 +74,8 @@ static pps_status refined_solve_sky(void *state, double thickness) {
 static pps_march refined_march(const spp_state *s) {
     return (pps_march){.slab = s->slab,
                        .mu0 = 1 / s->spp.q,
-                       .diffuse = diffuse,
+                       .shares = shares,
+                       .terms = terms,
                        .solution = s,
                        .sky = s->sky};
 }
