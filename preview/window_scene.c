@@ -36,7 +36,11 @@ static void read_albedo(view_window *w) {
 /* What the scene says, into the settings. */
 static void read_scene(view_window *w) {
     const double *to = w->stages.scene->sun.to;
+    stage_options sppg = w->settings.options.stage;
+    pps_problem problem;
     read_albedo(w);
+    w->settings.any_model =
+        options_model("sppg", &sppg) && stage_takes(w->stages.scene, &sppg, &problem);
     w->settings.sun[0] = atan2(to[1], to[0]) * 180 / 3.14159265358979323846;
     w->settings.sun[1] = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
 }
