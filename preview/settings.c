@@ -48,12 +48,18 @@ static int number_of(const stage_options *o) {
     return i;
 }
 
+/* But for those without cells to show, and what does not take the scene. */
+static bool take_model(const settings *s, int i, stage_options *out) {
+    return options_model(model_at(i), out) &&
+           (s->any_model || out->way != STAGE_INSTANCES);
+}
+
 static setting_effect change_model(settings *s, int step) {
     stage_options *o = &s->options.stage;
     int n = n_models(), at = number_of(o);
-    do { /* but for those without cells to show */
+    do {
         at = (at + step + n) % n;
-    } while (!options_model(model_at(at), o));
+    } while (!take_model(s, at, o));
     o->compensate = o->way == STAGE_INSTANCES ? PPS_COMPENSATE_DERIVED : 0;
     options_second(&s->options, &s->options.second);
     return EFFECT_OPEN;
@@ -68,7 +74,7 @@ static setting_effect change_split(settings *s, int step) {
     int n = n_models(), at = o->split ? number_of(&o->second) : NOT_SPLIT;
     do {
         at = at + step < NOT_SPLIT ? n - 1 : at + step >= n ? NOT_SPLIT : at + step;
-    } while (at != NOT_SPLIT && !options_model(model_at(at), &o->second));
+    } while (at != NOT_SPLIT && !take_model(s, at, &o->second));
     o->split = at != NOT_SPLIT;
     if (o->split) {
         options_second(o, &o->second);

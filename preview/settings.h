@@ -11,6 +11,7 @@ typedef struct {
     double sun[2];                /* azimuth, elevation, degrees */
     double albedo[PPS_BANDS_MAX]; /* of the first prototype, now */
     int n_bands;
+    bool any_model;  /* else sppg does not take the scene, and is passed over */
     double split_at; /* share of the window's width */
     char note[200];  /* why a setting did not change */
 } settings;

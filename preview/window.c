@@ -15,198 +15,6 @@
 
 static const double LOOK_AGAIN = 0.5; /* seconds between looks at the scene's file */
 static const double SLOW = 0.05;      /* a frame of more seconds is coarse in drags */
-enum { FEWER_RAYS = 20 };             /* of Monte Carlo while the sun is dragged */
-
-/* ---- the stages ---- */
-
-static const char *scene_path(const view_window *w) {
-    return w->scene_path[0] ? w->scene_path : w->settings.options.scene;
-}
-
-static void note_file_time(view_window *w) {
-    struct stat about;
-    if (scene_path(w) && stat(scene_path(w), &about) == 0) {
-        w->changed = about.st_mtim;
-    }
-}
-
-static void read_albedo(view_window *w) {
-    const pps_scene *scene = w->stages.scene;
-    w->settings.n_bands = scene->n_bands;
-    for (int b = 0; b < scene->n_bands; b++) {
-        w->settings.albedo[b] = pps_leaf_albedo(&scene->prototype[0].optics, b);
-    }
-}
-
-/* What the scene says, into the settings. */
-static void read_scene(view_window *w) {
-    const double *to = w->stages.scene->sun.to;
-    read_albedo(w);
-    w->settings.sun[0] = atan2(to[1], to[0]) * 180 / 3.14159265358979323846;
-    w->settings.sun[1] = asin(fmin(fmax(to[2], -1), 1)) * 180 / 3.14159265358979323846;
-}
-
-static void warn(view_window *w) {
-    char before[sizeof w->warning];
-    memcpy(before, w->warning, sizeof before);
-    if (!leaves_too_large(w->stages.of[0], w->warning, sizeof w->warning)) {
-        w->warning[0] = '\0';
-    } else if (strcmp(before, w->warning) != 0) {
-        fprintf(stderr, "ppscat-preview: %s\n", w->warning);
-    }
-}
-
-/* Give leaves their new albedo, and find all light anew. */
-static void light_leaves(view_window *w) {
-    pps_problem problem = {""};
-    for (int b = 0; b < w->stages.scene->n_bands; b++) {
-        if (!isnan(w->settings.options.albedo[b])) {
-            set_albedo(w->stages.scene, b, w->settings.options.albedo[b]);
-        }
-    }
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        if (!stage_light_sky(w->stages.of[i], &problem)) {
-            snprintf(w->note, sizeof w->note, "%s", problem.text);
-        }
-    }
-}
-
-/* ---- opening ---- */
-
-static void wake(void) { glfwPostEmptyEvent(); }
-
-static void start_opening(view_window *w, pps_scene *scene) {
-    preview_options options = w->settings.options;
-    options.scene = scene_path(w);
-    if (w->opening.keep) {
-        options.sun_given = true;
-        memcpy(options.sun, w->settings.sun, sizeof options.sun);
-    }
-    if (!scene) {
-        note_file_time(w);
-    }
-    w->opening.again = false;
-    opener_start(&w->opener, &options, scene, wake);
-}
-
-void window_load(view_window *w, bool keep, const settings *before, const char *path) {
-    opening *o = &w->opening;
-    if (w->opener.running) { /* what is gone back to stays as it was */
-        o->again = true;
-        o->keep = o->keep && keep;
-        opener_cancel(&w->opener);
-    } else {
-        o->settings = before ? *before : w->settings;
-        memcpy(o->scene_path, w->scene_path, sizeof o->scene_path);
-        o->keep = keep;
-        o->fit = false;
-    }
-    if (path) {
-        strcpy(w->scene_path, path);
-        o->fit = true;
-    }
-    if (!w->opener.running) {
-        start_opening(w, NULL);
-    }
-}
-
-static void go_back(view_window *w, const pps_problem *problem) {
-    w->settings = w->opening.settings;
-    memcpy(w->scene_path, w->opening.scene_path, sizeof w->scene_path);
-    snprintf(w->note, sizeof w->note, "%s", problem->text);
-}
-
-/* Show what was opened, in place of what is there, with what was set meanwhile. */
-static void show_opened(view_window *w) {
-    const preview_options *then = &w->opener.options, *now = &w->settings.options;
-    settings before = w->settings;
-    pair_close(&w->stages);
-    w->stages = w->opener.pair;
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        w->stages.of[i]->options.progress = NULL; /* the next opening's */
-    }
-    w->note[0] = '\0';
-    read_scene(w);
-    if (w->opening.keep) {
-        memcpy(w->settings.sun, before.sun, sizeof before.sun);
-    }
-    if (memcmp(then->albedo, now->albedo, sizeof then->albedo) != 0) {
-        light_leaves(w);
-        read_albedo(w);
-    }
-    w->sun_moved =
-        w->sun_moved || then->stage.sources != now->stage.sources ||
-        (w->opening.keep && memcmp(then->sun, before.sun, sizeof before.sun) != 0);
-    if (w->opening.fit) {
-        window_start_view(w);
-    }
-    warn(w);
-}
-
-bool window_take(view_window *w, pps_problem *problem) {
-    opener *o = &w->opener;
-    if (!opener_finished(o)) {
-        return true;
-    }
-    w->dirty = true;
-    if (w->opening.again) {
-        if (o->good) {
-            pair_close(&o->pair);
-        }
-        start_opening(w, NULL);
-        return true;
-    }
-    if (o->good && !pair_upload(&o->pair, &o->problem)) {
-        pair_close(&o->pair);
-        o->good = false;
-    }
-    if (o->good) {
-        show_opened(w);
-        return true;
-    }
-    go_back(w, &o->problem);
-    *problem = o->problem;
-    return w->stages.of[0] != NULL;
-}
-
-static void reload_when_changed(view_window *w) {
-    struct stat about;
-    if (scene_path(w) && stat(scene_path(w), &about) == 0 &&
-        (about.st_mtim.tv_sec != w->changed.tv_sec ||
-         about.st_mtim.tv_nsec != w->changed.tv_nsec)) {
-        window_load(w, false, NULL, NULL);
-    }
-}
-
-void window_apply(view_window *w, setting_effect effect, const settings *before) {
-    if (effect == EFFECT_OPEN) {
-        window_load(w, true, before, NULL);
-    } else if (effect == EFFECT_LEAVES) {
-        light_leaves(w);
-    } else if (effect == EFFECT_SUN) {
-        w->sun_moved = true;
-    }
-    if (w->settings.note[0]) {
-        snprintf(w->note, sizeof w->note, "%s", w->settings.note);
-    }
-    w->dirty = true;
-}
-
-static bool light_sun(view_window *w, pps_problem *problem) {
-    bool dragged = w->drag == DRAG_SUN || w->drag == DRAG_TIME;
-    w->sun_moved = false;
-    turn_sun(w->stages.scene, w->settings.sun[0], w->settings.sun[1]);
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        stage *s = w->stages.of[i];
-        s->options.sources = w->settings.options.stage.sources;
-        uint64_t rays = stage_rays(s->scene, w->settings.options.stage.rays);
-        s->options.rays = dragged ? rays / FEWER_RAYS + 1 : rays;
-        if (!stage_light_sun(s, problem)) {
-            return false;
-        }
-    }
-    return true;
-}
 
 /* ---- what is written on the window ---- */
 
@@ -224,29 +32,33 @@ static void write_settings(const view_window *w, char *text, size_t size) {
 
 /* What is being opened, and how far that is. */
 static void write_opening(const view_window *w, char *text, size_t size) {
-    const char *scene = scene_path(w);
+    const char *scene = window_scene_path(w);
     char step[60];
     opener_write(&w->opener, step, sizeof step);
     snprintf(text, size, "opening %.200s: %s", scene ? scene : "a grove", step);
 }
 
+static size_t write_steps(const stage *s, char *text, size_t size) {
+    const double *t = s->seconds;
+    return (size_t)snprintf(
+        text, size,
+        "\n%s, ms: 1 cells %.0f, 2 maps %.0f, 3 G %.0f, 4 sky %.0f, 5 sun %.0f + %.0f",
+        options_model_name(&s->options), 1000 * t[0], 1000 * t[1], 1000 * t[2],
+        1000 * t[3], 1000 * t[4], 1000 * t[5]);
+}
+
 static void write_times(const view_window *w, char *text, size_t size) {
+    const stage *first = w->stages.of[0], *second = w->stages.of[1];
     size_t used =
         (size_t)snprintf(text, size, "frame %.0f ms", 1000 * w->frame_seconds);
-    for (int i = 0; i < 2 && w->stages.of[i]; i++) {
-        const stage *s = w->stages.of[i];
-        const double *t = s->seconds;
-        used +=
-            (size_t)snprintf(text + used, size - used,
-                             "\n%s, ms: 1 cells %.0f, 2 maps %.0f, 3 G %.0f, 4 sky "
-                             "%.0f, 5 sun %.0f + %.0f",
-                             options_model_name(&s->options), 1000 * t[0], 1000 * t[1],
-                             1000 * t[2], 1000 * t[3], 1000 * t[4], 1000 * t[5]);
+    used += write_steps(first, text + used, size - used);
+    if (second) {
+        used += write_steps(second, text + used, size - used);
     }
     used += (size_t)snprintf(text + used, size - used,
                              "\n%zu triangles; h: help, Tab: no panel%s%s%s%s",
-                             w->stages.of[0]->n_triangles, w->warning[0] ? "\n" : "",
-                             w->warning, w->note[0] ? "\n" : "", w->note);
+                             first->n_triangles, w->warning[0] ? "\n" : "", w->warning,
+                             w->note[0] ? "\n" : "", w->note);
     if (w->opener.running && used + 1 < size) {
         text[used++] = '\n';
         write_opening(w, text + used, size - used);
@@ -415,7 +227,7 @@ bool window_draw(view_window *w, pps_problem *problem) {
     if (width < 1 || height < 1) { /* an icon */
         return true;
     }
-    if ((w->sun_moved && !light_sun(w, problem)) ||
+    if ((w->sun_moved && !window_light_sun(w, problem)) ||
         !fit_window(w, width, height, problem)) {
         return false;
     }
@@ -490,7 +302,7 @@ static bool loop(view_window *w, pps_problem *problem) {
             return false;
         }
         if (!w->opener.running && glfwGetTime() - looked > LOOK_AGAIN) {
-            reload_when_changed(w);
+            window_reload(w);
             looked = glfwGetTime();
         }
     }
@@ -499,8 +311,7 @@ static bool loop(view_window *w, pps_problem *problem) {
 
 int window_open(const preview_options *options, view_window *w, pps_problem *problem) {
     *w = (view_window){.settings = {.options = *options, .split_at = 0.5}};
-    note_file_time(w);
-    pps_scene *scene = scene_for(options, problem); /* broken: no window opens */
+    pps_scene *scene = window_read(w, problem); /* broken: no window opens */
     if (!scene) {
         return EXIT_USAGE;
     }
@@ -508,10 +319,7 @@ int window_open(const preview_options *options, view_window *w, pps_problem *pro
         pps_scene_free(scene);
         return EXIT_FAILED;
     }
-    w->opening.settings = w->settings;
-    w->opening.fit = true;
-    start_opening(w, scene);
-    w->dirty = true;
+    window_begin(w, scene);
     return EXIT_DONE;
 }
 

@@ -64,6 +64,14 @@ void window_close(view_window *w);
 bool window_draw(view_window *w, pps_problem *problem);
 void window_show(view_window *w);
 
+/* The file or name of the scene; NULL: the grove. */
+const char *window_scene_path(const view_window *w);
+
+/* Before there is a window: read the scene that the options name (NULL: the problem), and
+ * then begin to open it. */
+pps_scene *window_read(view_window *w, pps_problem *problem);
+void window_begin(view_window *w, pps_scene *scene);
+
 /* Begin to read the scene, of `path` if one is given, and to light it, the sun staying where
  * it is if `keep`. Until that is done what is there stays; where it fails, so it does, with
  * the settings that were `before` (NULL: as they are), and a note tells why. */
@@ -72,6 +80,12 @@ void window_load(view_window *w, bool keep, const settings *before, const char *
 /* To be called now and then: take what has been opened. False: there is nothing to show, and
  * the problem. */
 bool window_take(view_window *w, pps_problem *problem);
+
+/* To be called now and then: read the scene anew if its file has changed. */
+void window_reload(view_window *w);
+
+/* Find the sun's light where it stands now, on what is there. */
+bool window_light_sun(view_window *w, pps_problem *problem);
 
 /* Do what a changed setting asks for; `before` is gone back to where that fails. */
 void window_apply(view_window *w, setting_effect effect, const settings *before);

@@ -6,7 +6,7 @@ build_packages=(cmake ninja-build gcc libc6-dev pkg-config
     liblapacke-dev libopenblas-dev libgsl-dev librandom123-dev
     libjansson-dev libnetcdf-dev libcmocka-dev
     libassimp-dev libembree-dev libpng-dev libturbojpeg0-dev
-    libegl-dev libgl1-mesa-dri libepoxy-dev libglfw3-dev xvfb xauth xdotool x11-utils)
+    libegl-dev libgl1-mesa-dri libepoxy-dev libglfw3-dev libx11-dev xvfb xauth xdotool x11-utils)
 
 say() { printf '== %s\n' "$*"; }
 

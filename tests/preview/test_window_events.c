@@ -194,6 +194,32 @@ static void what_is_set_while_a_scene_opens_holds(void **state) {
                         options_model_name(&was));
 }
 
+/* A plant turned by 30 degrees is none for sppg: the key goes past it, all the way round. */
+static void models_that_do_not_take_the_scene_are_passed_over(void **state) {
+    (void)state;
+    FILE *file = fopen("window-turned.json", "w");
+    assert_non_null(file);
+    fputs("{\"prototypes\": {\"a\": {\"mesh\": \"window-cards.obj\"}}, "
+          "\"instances\": [{\"yaw\": 30}], "
+          "\"sun\": {\"direction\": [0, 0, 1], \"irradiance\": [1, 1, 1]}}",
+          file);
+    assert_int_equal(fclose(file), 0);
+    drop("window-turned.json");
+    assert_string_equal(w.note, "");
+    stage_options was = w.settings.options.stage;
+    int n = 0;
+    do {
+        key(GLFW_KEY_M, 0);
+        settle();
+        assert_string_equal(w.note, "");
+        assert_string_not_equal(options_model_name(&w.stages.of[0]->options), "sppg");
+        n++;
+    } while (strcmp(options_model_name(&w.settings.options.stage),
+                    options_model_name(&was)) != 0);
+    assert_int_equal(n, pps_light_model_count()); /* with mc, without leaf-lattice */
+    drop("window-cards.obj");
+}
+
 /* All that was asked for since goes back with it. */
 static void a_failure_while_a_scene_opens_goes_back(void **state) {
     (void)state;
@@ -272,6 +298,7 @@ int main(void) {
         cmocka_unit_test(a_reload_keeps_the_camera_and_the_sun),
         cmocka_unit_test(the_window_goes_on_while_a_scene_opens),
         cmocka_unit_test(what_is_set_while_a_scene_opens_holds),
+        cmocka_unit_test(models_that_do_not_take_the_scene_are_passed_over),
         cmocka_unit_test(a_failure_while_a_scene_opens_goes_back),
         cmocka_unit_test(the_wheel_comes_nearer),
         cmocka_unit_test(frames_follow_the_window_s_size),

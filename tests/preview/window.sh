@@ -1,9 +1,9 @@
 #!/bin/bash
-# The window under Xvfb, by real keys, clicks and drags: the pictures that `s` saves, each
-# as the first one or different from it, as is said for it.
-#   window.sh PROGRAM SCENE, under xvfb-run
+# The window under Xvfb, by real keys, clicks, drags and a dropped file: the pictures that `s`
+# saves, each as the first one or different from it, as is said for it.
+#   window.sh PROGRAM SCENE DROP, under xvfb-run; DROP: the program of drop.c
 set -euo pipefail
-program=$1 scene=$2
+program=$1 scene=$2 drop=$3
 folder=$(mktemp -d)
 trap 'kill "$pid" 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
@@ -118,6 +118,11 @@ saved other "the time dragged"
 sed -i 's/"unit": 0.2/"unit": 0.1/' "$scene"
 sleep 2
 saved other "the scene changed"
+cp ppscat-preview-$n.png changed.png
+cp data/trees/oak_small.obj "data/trees/an oak.obj"
+"$drop" "$window" "$folder/data/trees/an oak.obj" || fail "the drop was not taken"
+saved other "a file dropped"
+cmp -s changed.png ppscat-preview-$n.png && fail "the dropped file is not shown"
 xdotool key q
 wait "$pid" || fail "exit $?: $(cat errors)"
 [[ ! -s errors ]] || fail "$(cat errors)"
