@@ -95,18 +95,20 @@ static double elliptic_third(double p, double q, double a, double b) {
            (p * sqrt(a));
 }
 
-/* R - 1/2 = -sum over odd l of (2l+1)/2 g^l P_l(mu0) int_0^1 P_l; for small |g|. */
+/* R - 1/2 = -sum over odd l of (2l+1)/2 g^l P_l(mu0) int_0^1 P_l; for small |g|. Nothing
+ * that waits for the term before is divided. */
 static double backward_series(double g, double mu0) {
     double sum = 0, power = g, half_moment = 0.5; /* int_0^1 P_1 = 1/2 */
     double before = 1, here = mu0;                /* P_0, P_1 */
-    for (int l = 1; l < 120; l += 2) {
-        sum += (2 * l + 1) * 0.5 * power * here * half_moment;
-        double even = ((2 * l + 1) * mu0 * here - l * before) / (l + 1);
-        double odd = ((2 * l + 3) * mu0 * even - (l + 1) * here) / (l + 2);
+    for (int l = 1; fabs(power) > 1e-18; l += 2) {
+        double over = 1.0 / (l + 1), next = 1.0 / (l + 2);
+        sum += (l + 0.5) * (power * half_moment) * here;
+        double even = (2 * l + 1) * over * mu0 * here - l * over * before;
+        double odd = (2 * l + 3) * next * mu0 * even - (l + 1) * next * here;
         before = even;
         here = odd;
         power *= g * g;
-        half_moment *= -(double)l / (l + 3); /* int P_(l+2) / int P_l */
+        half_moment *= -l * (1.0 / (l + 3)); /* int P_(l+2) / int P_l */
     }
     return 0.5 - sum;
 }
