@@ -62,6 +62,28 @@ PPS_LANE void make_reflection(work *w, size_t k) {
     w->beta[k] = 1 / (norm2 - alpha * first); /* 2 / |v|^2 */
 }
 
+/* p = factor times the sum of v_j and column j >= from, rows from `skip` on; four columns at
+ * a time, so that p is not waited for so often. */
+PPS_LANE void multiply(work *w, size_t from, size_t skip, double factor,
+                       const double *v) {
+    size_t rows = w->rows, j = from;
+    memset(w->p, 0, rows * sizeof *w->p);
+    for (; j + 4 <= w->n; j += 4) {
+        const double *a = w->a + j * rows;
+        double x[4] = {factor * v[j], factor * v[j + 1], factor * v[j + 2],
+                       factor * v[j + 3]};
+        for (size_t i = skip; i < rows; i += FOUR) {
+            four first = x[0] * four_at(a + i) + x[1] * four_at(a + rows + i);
+            four second =
+                x[2] * four_at(a + 2 * rows + i) + x[3] * four_at(a + 3 * rows + i);
+            four_to(w->p + i, four_at(w->p + i) + (first + second));
+        }
+    }
+    for (; j < w->n; j++) {
+        add(rows - skip, factor * v[j], w->a + j * rows + skip, w->p + skip);
+    }
+}
+
 PPS_LANE void reduce(work *w) {
     size_t n = w->n, rows = w->rows;
     for (size_t k = 0; k + 2 < n; k++) {
@@ -72,10 +94,7 @@ PPS_LANE void reduce(work *w) {
             continue;
         }
         size_t skip = (k + 1) / FOUR * FOUR, left = rows - skip;
-        memset(w->p, 0, rows * sizeof *w->p);
-        for (size_t j = k + 1; j < n; j++) { /* p = beta A v */
-            add(left, beta * v[j], w->a + j * rows + skip, w->p + skip);
-        }
+        multiply(w, k + 1, skip, beta, v); /* p = beta A v */
         double share = beta / 2 * dot(left, v + skip, w->p + skip);
         add(left, -share, v + skip, w->p + skip);
         for (size_t j = k + 1; j < n; j++) { /* A <- A - v p^T - p v^T */
@@ -135,34 +154,14 @@ PPS_LANE void accumulate(work *w) {
     }
 }
 
-/* Rotations i = m - 1 down to l, each of columns i and i + 1 of Q: `fours` blocks of rows
- * at a time, since each rotation waits for the one before. */
-PPS_LANE void rotate_rows(double *q, size_t rows, size_t fours, size_t l, size_t m,
-                          const double *c, const double *s) {
-    four carried[4];
-    for (size_t k = 0; k < fours; k++) {
-        carried[k] = four_at(q + m * rows + k * FOUR);
-    }
-    for (size_t i = m; i-- > l;) {
-        double *column = q + i * rows;
-        for (size_t k = 0; k < fours; k++) {
-            four here = four_at(column + k * FOUR);
-            four_to(column + rows + k * FOUR, s[i] * here + c[i] * carried[k]);
-            carried[k] = c[i] * here - s[i] * carried[k];
-        }
-    }
-    for (size_t k = 0; k < fours; k++) {
-        four_to(q + l * rows + k * FOUR, carried[k]);
-    }
-}
-
-PPS_LANE void rotate(work *w, size_t l, size_t m, const double *c, const double *s) {
-    size_t at = 0;
-    for (; at + 4 * FOUR <= w->rows; at += 4 * FOUR) {
-        rotate_rows(w->q + at, w->rows, 4, l, m, c, s);
-    }
-    for (; at < w->rows; at += 2 * FOUR) {
-        rotate_rows(w->q + at, w->rows, 2, l, m, c, s);
+/* Columns i and i + 1 of Q, turned: done at once, while the next rotation waits for its
+ * root. */
+PPS_LANE void rotate(work *w, size_t i, double c, double s) {
+    double *x = w->q + i * w->rows, *y = x + w->rows;
+    for (size_t k = 0; k < w->rows; k += FOUR) {
+        four here = four_at(x + k), next = four_at(y + k);
+        four_to(y + k, s * here + c * next);
+        four_to(x + k, c * here - s * next);
     }
 }
 
@@ -178,7 +177,7 @@ PPS_LANE size_t block_end(const work *w, size_t l) {
 
 /* One implicit QL sweep over rows l..m, shifted towards the eigenvalue at l. */
 PPS_LANE void sweep(work *w, size_t l, size_t m) {
-    double *d = w->d, *e = w->e, cosine[MOST], sine[MOST];
+    double *d = w->d, *e = w->e;
     double half = (d[l + 1] - d[l]) / (2 * e[l]), root = sqrt(half * half + 1);
     double g = d[m] - d[l] + e[l] / (half + (half < 0 ? -root : root));
     double s = 1, c = 1, p = 0;
@@ -188,24 +187,21 @@ PPS_LANE void sweep(work *w, size_t l, size_t m) {
         if (h < DBL_MIN) { /* it fell apart on the way: deflate */
             d[i + 1] -= p;
             e[m] = 0;
-            rotate(w, i + 1, m, cosine, sine);
             return;
         }
         double over = r * (1 / h); /* 1/r, without waiting for r */
         s = f * over;
         c = g * over;
         g = d[i + 1] - p;
-        r = (d[i] - g) * s + 2 * c * b;
+        r = (d[i] - g) * s + c * (b + b);
         p = s * r;
         d[i + 1] = g + p;
         g = c * r - b;
-        cosine[i] = c;
-        sine[i] = s;
+        rotate(w, i, c, s);
     }
     d[l] -= p;
     e[l] = g;
     e[m] = 0;
-    rotate(w, l, m, cosine, sine);
 }
 
 PPS_CLONES static bool diagonalise(work *w) {
