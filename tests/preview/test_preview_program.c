@@ -275,6 +275,10 @@ static void help_lists_every_option(void **state) {
     assert_int_equal(r.status, 0);
     assert_int_equal(strncmp(r.out, "ppscat-preview ", 15), 0);
     result_free(&r);
+    r = program_shell("\"$P\" --help > /dev/full");
+    assert_int_equal(r.status, 1);
+    assert_string_equal(r.err, "ppscat-preview: cannot write standard output\n");
+    result_free(&r);
 }
 
 int main(void) {
