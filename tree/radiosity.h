@@ -5,8 +5,8 @@
  *
  * A leaf is cut into elements, each with the same light all over. Rays leave from points
  * that are spread over the leaf, by the cosine; what each of them meets is kept, so that
- * new light takes no new rays, but for the sun's when it moves. References: Goral et al.
- * 1984; docs/theory.md section 9.
+ * new light takes no new rays, but for the sun's when it moves. Reference: GTGB84; docs/theory.md
+ * section 9.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef PPS_TREE_RADIOSITY_H
