@@ -273,11 +273,16 @@ static void add_own(const pps_light_field *field, const pps_scene *scene,
         front[b] += scene->sun.irradiance[b] * (double)sun[i][PPS_FRONT];
         back[b] += scene->sun.irradiance[b] * (double)sun[i][PPS_BACK];
     }
-    bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT);
-    for (size_t b = 0; lit && field->leaf_scattered && b < bands; b++) {
-        const float *at = field->leaf_scattered + 2 * (i * bands + b);
-        front[b] += (double)at[PPS_FRONT];
-        back[b] += (double)at[PPS_BACK];
+    const float *own[2] = {direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT)
+                               ? field->leaf_scattered
+                               : NULL,
+                           direct->sources & PPS_SKY ? field->leaf_sky : NULL};
+    for (size_t k = 0; k < 2 * bands; k++) {
+        if (own[k / bands]) {
+            const float *at = own[k / bands] + 2 * (i * bands + k % bands);
+            front[k % bands] += (double)at[PPS_FRONT];
+            back[k % bands] += (double)at[PPS_BACK];
+        }
     }
 }
 
@@ -328,7 +333,8 @@ pps_status pps_light_field_leaves(const pps_light_field *field, const pps_scene 
     }
     direct_light direct = {.sources = sources ? sources : PPS_ALL_LIGHT,
                            .n_bands = field->n_bands};
-    direct.n_directions = direct.sources & PPS_SKY ? field->n_directions : 0;
+    direct.n_directions =
+        direct.sources & PPS_SKY && !field->leaf_sky ? field->n_directions : 0;
     for (int j = 0; j < direct.n_directions; j++) {
         for (int b = 0; b < field->n_bands; b++) {
             direct.radiance[j][b] =

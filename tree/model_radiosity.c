@@ -54,7 +54,7 @@ static pps_status solve(const pps_lit_scene *lit, pps_light_field *field) {
         free_state(b);
         b = NULL;
     }
-    field->leaf_scattered = NULL;
+    field->leaf_scattered = field->leaf_sky = NULL;
     field->leaf_sun = NULL;
     if (!b) {
         status = create(lit, &b);

@@ -45,7 +45,7 @@ struct pps_radiosity {
                              < 0: by the back */
     float *share;  /* [element]: its share of the leaf's points */
     float *weight; /* [2 * element + face]: its area */
-    float (*leaf_sun)[2], *scattered;         /* for the field */
+    float (*leaf_sun)[2], *scattered, *sky;   /* for the field */
     pps_bands *state, *image, *direct, *sent; /* [2 * element + face] */
     pps_anderson anderson;
 };
@@ -219,12 +219,13 @@ static pps_status allocate_leaves(pps_radiosity *r) {
     r->element = malloc((3 * points + 1) * sizeof *r->element);
     r->sun = calloc(points + 1, sizeof *r->sun);
     r->leaf_sun = calloc(n + 1, sizeof *r->leaf_sun);
-    r->scattered =
-        malloc((2 * n * (size_t)r->scene->n_bands + 1) * sizeof *r->scattered);
+    size_t faces = 2 * n * (size_t)r->scene->n_bands;
+    r->scattered = malloc((2 * faces + 1) * sizeof *r->scattered);
     if (!r->rows || !r->first || !r->element || !r->sun || !r->leaf_sun ||
         !r->scattered) {
         return PPS_ERR_MEMORY;
     }
+    r->sky = r->scattered + faces;
     r->meets[PPS_FRONT] = r->element + points;
     r->meets[PPS_BACK] = r->element + 2 * points;
     return PPS_OK;
@@ -326,32 +327,44 @@ static void average(const pps_radiosity *r, size_t leaf, pps_bands *sum,
     }
 }
 
-/* The light of sun and sky on the elements of a leaf, from where it is asked to scatter. */
+/* What the sky brings along a ray. */
+static pps_bands sky_along(const pps_scene *scene, uint32_t met) {
+    pps_bands e = {0};
+    if (met >= SKY && met < GROUND) {
+        double z = 2 * (met & LOW_BITS) / (HEIGHTS - 1) - 1;
+        for (int b = 0; b < scene->n_bands; b++) {
+            e[b] = (float)(PI * pps_sky_radiance(&scene->sky, b, z));
+        }
+    }
+    return e;
+}
+
+/* The light of sun and sky on a leaf, and on its elements what of it is to be scattered. */
 static void light_elements(pps_radiosity *r, const pps_lit_scene *lit, size_t leaf) {
     const pps_scene *scene = lit->scene;
-    bool sun = lit->options.sources & PPS_SUN_INDIRECT,
-         sky = lit->options.sources & PPS_SKY_INDIRECT;
-    pps_bands mean[2] = {{0}, {0}};
+    bool sky = lit->options.sources & PPS_SKY_INDIRECT;
+    pps_bands mean[2] = {{0}, {0}}, irradiance = {0}, sky_mean[2] = {{0}, {0}};
+    size_t bands = (size_t)scene->n_bands;
+    for (size_t b = 0; b < bands && lit->options.sources & PPS_SUN_INDIRECT; b++) {
+        irradiance[b] = (float)scene->sun.irradiance[b];
+    }
     memset(r->direct + 2 * r->first[leaf], 0,
            2 * (end_of(r, leaf) - r->first[leaf]) * sizeof *r->direct);
     for (size_t k = leaf * r->n_points; k < (leaf + 1) * r->n_points; k++) {
         for (size_t face = 0; face < 2; face++) {
-            float cosine = face == PPS_FRONT ? r->sun[k] : -r->sun[k];
-            uint32_t met = r->meets[face][k];
-            bool sees_sky = sky && met >= NOT_A_LEAF && met < GROUND;
-            double z = 2 * (met & LOW_BITS) / (HEIGHTS - 1) - 1;
-            pps_bands e = {0};
-            for (int b = 0; b < scene->n_bands; b++) {
-                e[b] +=
-                    sun && cosine > 0 ? cosine * (float)scene->sun.irradiance[b] : 0;
-                e[b] +=
-                    sees_sky ? (float)(PI * pps_sky_radiance(&scene->sky, b, z)) : 0;
-            }
+            float cosine = fmaxf(face == PPS_FRONT ? r->sun[k] : -r->sun[k], 0);
+            pps_bands above = sky_along(scene, r->meets[face][k]);
+            pps_bands e = cosine * irradiance + (sky ? above : pps_bands_all(0));
             r->direct[2 * (size_t)r->element[k] + face] += e;
             mean[face] += e / (float)r->n_points;
+            sky_mean[face] += above / (float)r->n_points;
         }
     }
     average(r, leaf, r->direct, mean);
+    for (size_t b = 0; b < bands; b++) {
+        r->sky[2 * (leaf * bands + b) + PPS_FRONT] = sky_mean[PPS_FRONT][b];
+        r->sky[2 * (leaf * bands + b) + PPS_BACK] = sky_mean[PPS_BACK][b];
+    }
 }
 
 /* The first guess: the cells' light. */
@@ -457,6 +470,7 @@ pps_status pps_radiosity_solve(pps_radiosity *r, const pps_lit_scene *lit,
     }
     carry(r, lit, ground, true);
     field->leaf_scattered = r->scattered;
+    field->leaf_sky = r->sky;
     field->leaf_sun = (const float(*)[2])r->leaf_sun;
     return PPS_OK;
 }

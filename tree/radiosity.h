@@ -24,8 +24,8 @@ pps_status pps_radiosity_create(const pps_scene *scene, const pps_cells *cells,
 void pps_radiosity_free(pps_radiosity *radiosity); /* NULL is fine */
 
 /* Solve for the sun, sky and ground of lit, from the last answer on, at first from that of
- * the cells in `field`, to a change of `tolerance`; fills leaf_scattered and leaf_sun of the
- * field. ground: of pps_lattice_ground. CONVERGENCE: not within 200 rounds. */
+ * the cells in `field`, to a change of `tolerance`; fills leaf_scattered, leaf_sky and
+ * leaf_sun of the field. ground: of pps_lattice_ground. CONVERGENCE: not within 200 rounds. */
 pps_status pps_radiosity_solve(pps_radiosity *radiosity, const pps_lit_scene *lit,
                                const pps_bands *ground, double tolerance,
                                pps_light_field *field);
