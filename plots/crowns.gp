@@ -65,7 +65,7 @@ no_words = '("" 0.5, "" 1, "" 2, "" 5, "" 10, "" 20, "" 50, "" 100)'
 do for [i = 1:2] {
     set autoscale
     stats csv using (column(time_of(i))) name "time" nooutput
-    set xrange [time_min/2:time_max*2]
+    set xrange [time_min*0.7:time_max*2]
     least = i == 1 ? 0.4 : 2
     set yrange [least:130]
     do for [k = 1:n_rows] {
