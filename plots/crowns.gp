@@ -22,13 +22,13 @@ stats csv using (note_row(stringcolumn("row")) + note_label(stringcolumn("column
 
 # The SPP paper's own in orange, the other paper's in violet, our recommendation in black.
 mc(l) = l[1:2] eq "mc"
-paint(l) = l eq "lattice" ? 0x000000 : l eq "self-consistent" ? 0x0072B2 : \
+paint(l) = l eq "lattice" || l eq "radiosity" ? 0x000000 : l eq "self-consistent" ? 0x0072B2 : \
     l eq "march-g" ? 0x56B4E9 : l eq "SS" ? 0xCC79A7 : \
     l[1:3] eq "hem" ? 0x009E73 : strstrt(l, "kappa") ? 0x8C510A : \
     l eq "SPP" ? 0xE69F00 : mc(l) ? 0xCC0000 : l[1:5] eq "leaf-" ? 0x332288 : \
     l[1:4] eq "leaf" ? 0xAA4499 : 0xD55E00
 # With a G-factor, or the unbiased mean of the sun, filled; without, open.
-shape(l) = l eq "lattice" ? 5 : l eq "self-consistent" ? 15 : l eq "march-g" ? 11 : \
+shape(l) = l eq "lattice" ? 5 : l eq "radiosity" ? 13 : l eq "self-consistent" ? 15 : l eq "march-g" ? 11 : \
     l eq "SS" ? 3 : l eq "SPPG (printed G)" ? 9 : l eq "SPPG (kappa 1)" ? 13 : mc(l) ? 1 : \
     l eq "leaf" ? 8 : l eq "leaf unbiased" ? 9 : l eq "leaf-lattice" ? 4 : \
     l eq "leaf-lattice unbiased" ? 5 : strstrt(l, "G") ? 7 : 6
@@ -65,7 +65,7 @@ no_words = '("" 0.5, "" 1, "" 2, "" 5, "" 10, "" 20, "" 50, "" 100)'
 do for [i = 1:2] {
     set autoscale
     stats csv using (column(time_of(i))) name "time" nooutput
-    set xrange [time_min/2:time_max*2]
+    set xrange [time_min*0.7:time_max*2]
     least = i == 1 ? 0.4 : 2
     set yrange [least:130]
     do for [k = 1:n_rows] {

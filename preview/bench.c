@@ -50,11 +50,15 @@ static void print_row(const bench *b, int step, const char *work, duration t) {
     fflush(stdout);
 }
 
+/* A step as it was when the stage opened. */
+static duration of_opening(const stage *s, int step) {
+    return (duration){s->seconds[step], s->seconds[step] * s->cores};
+}
+
 static void print_steps(const bench *b) {
     static const char *const work[] = {"cells", "maps", "depths and G", "sky"};
     for (int i = 0; i < 4; i++) {
-        print_row(b, i + 1, work[i],
-                  (duration){b->stage->seconds[i], b->stage->seconds[i]});
+        print_row(b, i + 1, work[i], of_opening(b->stage, i));
     }
 }
 
@@ -82,9 +86,8 @@ typedef struct {
 
 /* Monte Carlo takes so long that once is enough: as it was when the stage opened. */
 static void take_opening(const bench *b, move *out) {
-    const double *seconds = b->stage->seconds;
-    out->light = (duration){seconds[4], seconds[4]};
-    out->maps = (duration){seconds[5], seconds[5]};
+    out->light = of_opening(b->stage, 4);
+    out->maps = of_opening(b->stage, 5);
     out->frame = draw(b, &b->outside, b->options->look);
 }
 

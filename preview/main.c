@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <string.h>
 
 #include "preview/bench.h"
 #include "preview/snapshot.h"
@@ -18,6 +19,14 @@ static void complain(const char *text) {
 }
 
 static int run(const preview_options *options, pps_problem *problem) {
+    if (options->help) {
+        options_help(stdout);
+        return EXIT_DONE;
+    }
+    if (options->version) {
+        puts("ppscat-preview " PPS_VERSION_STRING);
+        return EXIT_DONE;
+    }
     if (options->bench) {
         return bench_run(options, problem);
     }
@@ -34,15 +43,12 @@ int main(int argc, char **argv) {
         complain(problem.text);
         return EXIT_USAGE;
     }
-    if (options.help) {
-        options_help(stdout);
-        return EXIT_DONE;
-    }
-    if (options.version) {
-        puts("ppscat-preview " PPS_VERSION_STRING);
-        return EXIT_DONE;
-    }
     int rc = run(&options, &problem);
+    bool written = fflush(stdout) == 0 && !ferror(stdout);
+    if (!written && rc == EXIT_DONE) {
+        strcpy(problem.text, "cannot write standard output");
+        rc = EXIT_FAILED;
+    }
     if (rc) {
         complain(problem.text);
     }

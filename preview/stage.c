@@ -13,11 +13,13 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double now(void) {
+static double read_clock(clockid_t clock) {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
+
+static double now(void) { return read_clock(CLOCK_MONOTONIC); }
 
 int stage_band(const pps_scene *scene, int color) {
     return scene->n_bands == 1 ? 0 : color < scene->n_bands ? color : -1;
@@ -192,7 +194,7 @@ bool stage_light_sky(stage *s, pps_problem *problem) {
     return stage_light_sun(s, problem);
 }
 
-bool stage_prepare(stage *s, pps_problem *problem) {
+static bool prepare_all(stage *s, pps_problem *problem) {
     double start = now();
     begin_step(s, 1);
     if (!stage_cells_known(s)) {
@@ -208,6 +210,13 @@ bool stage_prepare(stage *s, pps_problem *problem) {
     }
     note_times(s);
     return find_sun(s, problem);
+}
+
+bool stage_prepare(stage *s, pps_problem *problem) {
+    double wall = now(), cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    bool good = prepare_all(s, problem);
+    s->cores = (read_clock(CLOCK_PROCESS_CPUTIME_ID) - cpu) / (now() - wall);
+    return good;
 }
 
 /* ---- life ---- */

@@ -66,6 +66,7 @@ typedef struct stage {
     float *attenuation;     /* of LEAVES */
     pps_irradiance *leaves; /* of LEAVES and MONTE_CARLO */
     double seconds[STAGE_TIMES];
+    double cores;       /* at work, in the mean, while it was prepared */
     size_t n_triangles; /* of all instances */
     pps_box box;
     double (*ball)[4];              /* about each prototype: middle and radius */

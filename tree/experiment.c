@@ -337,6 +337,7 @@ static const pps_contender contenders[] = {
     ROW("leaf unbiased", leaf, .sun_mean = PPS_SUN_UNBIASED),
     ROW("leaf-lattice", leaf_lattice, .sun_mean = PPS_SUN_PRINTED),
     ROW("leaf-lattice unbiased", leaf_lattice, .sun_mean = PPS_SUN_UNBIASED),
+    ROW("radiosity", radiosity, .compensate = PPS_COMPENSATE_NONE),
 };
 
 /* The paper traced 184K rays. */

@@ -225,8 +225,10 @@ typedef struct {
 } direct_light;
 
 /* The sun's light on the leaf's own points: of models that go by what is seen. */
-static bool own_sun(const pps_light_field *field, const pps_cells *cells) {
-    return cells->leaf_sun && !field->model->ops->counts;
+static const float (*own_sun(const pps_light_field *field, const pps_cells *cells))[2] {
+    return field->leaf_sun             ? field->leaf_sun
+           : field->model->ops->counts ? NULL
+                                       : (const float(*)[2])cells->leaf_sun;
 }
 
 /* The part of a leaf's light, `share` of the whole, that cell c gives it. */
@@ -235,7 +237,8 @@ static void add_cell(const pps_light_field *field, const pps_scene *scene,
                      const double normal[3], size_t c, double share, double *front,
                      double *back) {
     size_t bands = (size_t)field->n_bands;
-    bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT);
+    bool lit = direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT) &&
+               !field->leaf_scattered;
     double sun = direct->sources & PPS_SUN && !own_sun(field, cells)
                      ? vec_dot(normal, scene->sun.to) * (double)field->sun[c]
                      : 0;
@@ -260,6 +263,29 @@ static void add_cell(const pps_light_field *field, const pps_scene *scene,
     }
 }
 
+/* What is known of the leaf itself. */
+static void add_own(const pps_light_field *field, const pps_scene *scene,
+                    const pps_cells *cells, const direct_light *direct, size_t i,
+                    double *front, double *back) {
+    size_t bands = (size_t)field->n_bands;
+    const float(*sun)[2] = direct->sources & PPS_SUN ? own_sun(field, cells) : NULL;
+    for (size_t b = 0; sun && b < bands; b++) {
+        front[b] += scene->sun.irradiance[b] * (double)sun[i][PPS_FRONT];
+        back[b] += scene->sun.irradiance[b] * (double)sun[i][PPS_BACK];
+    }
+    const float *own[2] = {direct->sources & (PPS_SUN_INDIRECT | PPS_SKY_INDIRECT)
+                               ? field->leaf_scattered
+                               : NULL,
+                           direct->sources & PPS_SKY ? field->leaf_sky : NULL};
+    for (size_t k = 0; k < 2 * bands; k++) {
+        if (own[k / bands]) {
+            const float *at = own[k / bands] + 2 * (i * bands + k % bands);
+            front[k % bands] += (double)at[PPS_FRONT];
+            back[k % bands] += (double)at[PPS_BACK];
+        }
+    }
+}
+
 /* A leaf may reach through several cells: each of its triangles is lit in four places, the
  * centres of its quarters. Small leaves have all of them in one cell. */
 static void light_leaf(const pps_light_field *field, const pps_scene *scene,
@@ -272,11 +298,7 @@ static void light_leaf(const pps_light_field *field, const pps_scene *scene,
     const pps_instance *instance = &scene->instance[at.instance];
     const pps_mesh *mesh = scene->prototype[instance->prototype].mesh;
     const pps_leaf *leaf = &mesh->leaf[at.leaf];
-    bool sunlit = direct->sources & PPS_SUN && own_sun(field, cells);
-    for (int b = 0; sunlit && b < field->n_bands; b++) {
-        front[b] += scene->sun.irradiance[b] * (double)cells->leaf_sun[i][PPS_FRONT];
-        back[b] += scene->sun.irradiance[b] * (double)cells->leaf_sun[i][PPS_BACK];
-    }
+    add_own(field, scene, cells, direct, i, front, back);
     for (size_t t = leaf->first; t < leaf->first + leaf->n_triangles; t++) {
         double corner[3][3], a[3], b[3];
         for (int k = 0; k < 3; k++) {
@@ -311,7 +333,8 @@ pps_status pps_light_field_leaves(const pps_light_field *field, const pps_scene 
     }
     direct_light direct = {.sources = sources ? sources : PPS_ALL_LIGHT,
                            .n_bands = field->n_bands};
-    direct.n_directions = direct.sources & PPS_SKY ? field->n_directions : 0;
+    direct.n_directions =
+        direct.sources & PPS_SKY && !field->leaf_sky ? field->n_directions : 0;
     for (int j = 0; j < direct.n_directions; j++) {
         for (int b = 0; b < field->n_bands; b++) {
             direct.radiance[j][b] =

@@ -38,7 +38,8 @@ struct pps_lattice {
     pps_bands
         phase[PPS_SWEEP_DIRECTIONS_MAX]; /* of the sun's first scattering, less 1 */
     pps_bands *sum[2], *flux[2];         /* per cell, downward and upward half */
-    pps_bands *fall, *ground_direct, *ground_light; /* per column */
+    pps_bands *fall, *ground_direct,
+        *ground_light; /* per column; the last: and beside them */
     size_t n_state;
     pps_bands *state, *image; /* phi of leaf cells, sides if periodic, fall if ground */
     float *weight;            /* per leaf cell: depth */
@@ -79,6 +80,10 @@ bool pps_lattice_fits(const pps_lattice *l, const pps_lit_scene *lit) {
 }
 
 void pps_lattice_set_isotropic(pps_lattice *l) { l->isotropic = true; }
+
+const pps_bands *pps_lattice_ground(const pps_lattice *l) {
+    return l->ground ? l->ground_light : NULL;
+}
 
 void pps_lattice_forget(pps_lattice *l) {
     memset(l->state, 0, l->n_state * sizeof *l->state);
@@ -144,7 +149,7 @@ static pps_status allocate(pps_lattice *l) {
     l->kappa[0] = malloc((2 * m + 1) * sizeof *l->kappa[0]);
     l->leaf_depth = malloc((m + 1) * sizeof *l->leaf_depth);
     l->albedo = bands_array(2 * m);
-    l->source = bands_array(10 * n + 3 * l->n_columns);
+    l->source = bands_array(10 * n + 3 * l->n_columns + 1);
     l->sky_below = calloc(l->n_columns * (size_t)l->n_directions, sizeof(float));
     if (!l->depth || !l->leaf_cell || !l->kappa[0] || !l->leaf_depth || !l->albedo ||
         !l->source || !l->sky_below) {
@@ -609,6 +614,7 @@ pps_status pps_lattice_solve(pps_lattice *l, const pps_lit_scene *lit, double to
     }
     if (!status) { /* once more, for the net flux too */
         sweep_once(l, &reflectance, far, true);
+        l->ground_light[l->n_columns] = 4 * reflectance * far;
         field->sweeps++;
         give(l, field);
     }

@@ -12,6 +12,7 @@
 #define PPS_TREE_LATTICE_H
 
 #include "tree/light_model.h"
+#include "tree/sweep.h"
 
 typedef struct pps_lattice pps_lattice;
 
@@ -28,6 +29,10 @@ bool pps_lattice_fits(const pps_lattice *lattice, const pps_lit_scene *lit);
  * and sweeps of the field. CONVERGENCE: not within `tolerance` after 200 sweeps. */
 pps_status pps_lattice_solve(pps_lattice *lattice, const pps_lit_scene *lit,
                              double tolerance, pps_light_field *field);
+
+/* What the ground sends up, of the last solve: 4 times its exitance, a column of cells
+ * each (y * n[0] + x), and last that of the open ground beside the grid. NULL: no ground. */
+const pps_bands *pps_lattice_ground(const pps_lattice *lattice);
 
 /* Start the next solve from no light. */
 void pps_lattice_forget(pps_lattice *lattice);

@@ -29,6 +29,17 @@ double pps_leaf_turned(const pps_leaf_optics *optics, int band, double alpha) {
            (r * pps_leaf_back_mean(alpha) + t * pps_leaf_through_mean(alpha));
 }
 
+/* What comes through as a function of direction, linear in each coordinate: its mean over
+ * octant j is its value where they all are +-1/2, so it is read off those eight values.
+ * Weighted by cosines instead, leaves in the crown's shade saw the sun beside it. */
+static double interpolated(int j, const double to[3]) {
+    double weight = 1;
+    for (int k = 0; k < 3; k++) {
+        weight *= (1 + (j >> k & 1 ? 2 : -2) * to[k]) / 2;
+    }
+    return weight;
+}
+
 void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]) {
     double omega[PPS_OCTANTS][3], sum = 0;
     for (int j = 0; j < PPS_OCTANTS; j++) {
@@ -42,6 +53,7 @@ void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]) {
         sun->weight[j] /= sum;
     }
     for (int j = 0; j < PPS_OCTANTS; j++) {
+        sun->mean[j] = interpolated(j, to);
         sun->turn[j] = 0;
         for (int i = 0; i < PPS_OCTANTS; i++) {
             sun->turn[j] += sun->weight[i] * vec_dot(omega[j], omega[i]);
@@ -61,9 +73,9 @@ double pps_leaf_sun_through(const pps_leaf_sun *sun, const pps_leaf_octants *oct
     double depth = 0, through = 0;
     for (int j = 0; j < PPS_OCTANTS; j++) {
         depth += sun->weight[j] * octants->depth[j];
-        through += sun->weight[j] * octants->att[j];
+        through += sun->mean[j] * octants->att[j];
     }
-    return mean == PPS_SUN_PRINTED ? exp(-depth) : through;
+    return mean == PPS_SUN_PRINTED ? exp(-depth) : fmax(0, fmin(1, through));
 }
 
 /* (1 - e^(-a x))/a for any sign of a. */
@@ -76,7 +88,7 @@ static double apart(int i, int j) {
 }
 
 /* Along omega_j the sun's depth changes by -turn_j a unit (B-Eq. 22), so B-Eq. 20 is
- * T int_0^x e^(-s (1 - turn)) ds, x = tau s_max_j. The unbiased mean has one such
+ * T int_0^x e^(-s (1 - turn)) ds, x = tau s_max_j. Unbiased, there is one such
  * integral for each octant the sun shines through. */
 void pps_leaf_sun_depths(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
                          pps_sun_mean mean, double out[PPS_OCTANTS]) {

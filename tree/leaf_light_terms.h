@@ -19,6 +19,7 @@ typedef struct pps_leaf_sun {
     double weight[PPS_OCTANTS]; /* M(omega_l.omega_j) over their sum: B-Eq. 7 */
     double turn[PPS_OCTANTS];   /* sum_j' weight_j' (omega_j.omega_j'): 1 - G3/tau */
     double alpha[PPS_OCTANTS];
+    double mean[PPS_OCTANTS]; /* of the unbiased mean; sum 1, some negative */
 } pps_leaf_sun;
 void pps_leaf_sun_init(pps_leaf_sun *sun, const double to[3]);
 
@@ -28,7 +29,8 @@ typedef struct pps_leaf_octants {
 } pps_leaf_octants;
 void pps_leaf_octants_init(pps_leaf_octants *octants, const float *att);
 
-/* The sun's light that reaches the leaf: e^(-tau s_max(omega_l)), or its mean. */
+/* The sun's light that reaches the leaf: e^(-tau s_max(omega_l)), or the unbiased mean
+ * sum_j mean_j att_j, held between 0 and 1. */
 double pps_leaf_sun_through(const pps_leaf_sun *sun, const pps_leaf_octants *octants,
                             pps_sun_mean mean);
 

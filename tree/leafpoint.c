@@ -61,6 +61,9 @@ static bool place(const pps_scene *scene, const pps_scene_leaf *at, const double
     vec_along(t.a, u, t.ab, own);
     vec_along(own, v, t.ac, own);
     out->instance = at->instance;
+    out->triangle = (uint32_t)number;
+    out->u = u;
+    out->v = v;
     vec_normalize(t.normal);
     pps_instance_point(instance, own, out->point);
     pps_instance_direction(instance, t.normal, out->normal);

@@ -10,6 +10,8 @@
 
 typedef struct {
     size_t instance;
+    uint32_t triangle;          /* of the instance's mesh */
+    double u, v;                /* where on it: a + u (b - a) + v (c - a) */
     double point[3], normal[3]; /* in the scene; the triangle's normal, unit */
 } pps_leaf_point;
 

@@ -32,8 +32,7 @@ static const struct pps_light_model_ops ops = {
 
 const pps_light_model pps_light_lattice = {
     .name = "lattice",
-    .summary =
-        "discrete ordinates on the crown's own cells; the only one with a ground",
+    .summary = "discrete ordinates on the crown's own cells, with the ground's light",
     .source = "docs/theory.md section 9",
     .sources = PPS_ALL_LIGHT,
     .ops = &ops,

@@ -21,7 +21,8 @@ typedef enum {
     PPS_RANDOM_CELLS,
     PPS_RANDOM_RENDER,
     PPS_RANDOM_OCTANTS,
-    PPS_RANDOM_SCENE
+    PPS_RANDOM_SCENE,
+    PPS_RANDOM_RADIOSITY
 } pps_random_stream;
 
 typedef struct {

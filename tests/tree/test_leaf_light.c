@@ -126,7 +126,7 @@ static void indirect_sun_is_its_integral(void **state) {
 static void the_mean_of_exponentials_is_more_than_that_of_the_mean(void **state) {
     (void)state;
     const float att[8] = {0.9F, 0.35F, 0.02F, 0.6F, 1, 0.75F, 0.11F, 0.48F};
-    double to[3] = {0.2, 0.3, 0.9}, depth[8], clear[8];
+    double to[3] = {0.2, 0.3, 0.9}, depth[8];
     pps_leaf_sun sun;
     pps_leaf_octants octants;
     vec_normalize(to);
@@ -134,13 +134,42 @@ static void the_mean_of_exponentials_is_more_than_that_of_the_mean(void **state)
     pps_leaf_octants_init(&octants, att);
     for (int j = 0; j < 8; j++) {
         depth[j] = -log((double)att[j]);
-        clear[j] = (double)att[j];
     }
     double printed = pps_leaf_sun_through(&sun, &octants, PPS_SUN_PRINTED);
     double mean = pps_leaf_sun_through(&sun, &octants, PPS_SUN_UNBIASED);
     assert_close(printed, exp(-lobes(to, depth)), 1e-13, 0);
-    assert_close(mean, lobes(to, clear), 1e-13, 0);
     assert_true(mean > printed);
+}
+
+/* Of a crown that lets a + b.omega through towards omega, octants have the mean
+ * a + b.(+-1/2, +-1/2, +-1/2). */
+static void the_unbiased_sun_of_a_linear_crown_is_exact(void **state) {
+    (void)state;
+    const double b[3] = {0.12, -0.07, 0.2};
+    float att[8];
+    for (int j = 0; j < 8; j++) {
+        double omega[3];
+        pps_octant_direction(j, omega);
+        att[j] = (float)(0.5 + vec_dot(b, omega) * sqrt(3) / 2);
+    }
+    pps_leaf_octants octants;
+    pps_leaf_octants_init(&octants, att);
+    double suns[][3] = {{0, 0, 1}, {1, 1, 1}, {0.5, 0.3, 0.8}, {-2, 0.1, -0.4}};
+    for (size_t i = 0; i < sizeof suns / sizeof suns[0]; i++) {
+        pps_leaf_sun sun;
+        vec_normalize(suns[i]);
+        pps_leaf_sun_init(&sun, suns[i]);
+        assert_close(pps_leaf_sun_through(&sun, &octants, PPS_SUN_UNBIASED),
+                     0.5 + vec_dot(b, suns[i]), 1e-6, 0);
+    }
+    const float shut[8] = {1, 0, 1, 0, 1, 0, 1, 0}; /* interpolated 1.5, and -0.5 */
+    pps_leaf_octants_init(&octants, shut);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        pps_leaf_sun sun;
+        pps_leaf_sun_init(&sun, (double[3]){sign, 0, 0});
+        assert_close(pps_leaf_sun_through(&sun, &octants, PPS_SUN_UNBIASED), sign < 0,
+                     0, 0);
+    }
 }
 
 /* ---- a lone leaf ---- */
@@ -423,6 +452,7 @@ int main(void) {
         cmocka_unit_test(one_slice_of_leaves_gives_G1),
         cmocka_unit_test(indirect_sun_is_its_integral),
         cmocka_unit_test(the_mean_of_exponentials_is_more_than_that_of_the_mean),
+        cmocka_unit_test(the_unbiased_sun_of_a_linear_crown_is_exact),
         cmocka_unit_test(a_lone_leaf_has_clear_octants),
         cmocka_unit_test(groups_of_leaves_are_as_good_as_leaves),
         cmocka_unit_test(threads_do_not_change_the_attenuation),

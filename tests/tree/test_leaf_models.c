@@ -92,6 +92,40 @@ static void components_of_leaf_have_the_brightness_of_one_bounce(void **state) {
     stage_free(&s);
 }
 
+/* Weighted by cosines, the octants' mean would be over 1.05 from behind: a leaf in the
+ * crown's shade would see past it. */
+static void the_unbiased_sun_holds_from_every_side(void **state) {
+    (void)state;
+    stage s = make_stage((pps_crown){PPS_CROWN_UNIFORM, 6, 1500, 64});
+    pps_cells_options points = {.sun_samples = 256};
+    pps_light_options options = {.sources = PPS_SUN, .sun_mean = PPS_SUN_UNBIASED};
+    pps_irradiance *truth, *light;
+    assert_int_equal(pps_cells_set_sun(s.cells, s.scene, &points), PPS_OK);
+    assert_int_equal(pps_irradiance_create(s.scene, false, &truth), PPS_OK);
+    for (size_t i = 0; i < s.scene->n_leaves; i++) {
+        double e = s.scene->sun.irradiance[0];
+        truth->front[i] = e * (double)s.cells->leaf_sun[i][PPS_FRONT];
+        truth->back[i] = e * (double)s.cells->leaf_sun[i][PPS_BACK];
+    }
+    assert_int_equal(pps_light_model_run(pps_light_model_find("leaf"), s.scene, NULL,
+                                         &options, &light),
+                     PPS_OK);
+    const double x = 0.5 / hypot(0.5, 0.3), y = 0.3 / hypot(0.5, 0.3);
+    const double views[3][3] = {{x, y, 0}, {-x, -y, 0}, {y, -x, 0}};
+    for (int i = 0; i < 3; i++) {
+        pps_seen_difference seen;
+        assert_int_equal(pps_seen_compare(s.scene, truth, light, views[i], 128, &seen),
+                         PPS_OK);
+        print_message("view %d: mean %.3f, %.1f %% of the brightest\n", i, seen.ratio,
+                      100 * seen.over_top);
+        assert_true(seen.ratio > 0.88 && seen.ratio < 1.02);
+        assert_true(seen.over_top < 0.09);
+    }
+    pps_irradiance_free(truth);
+    pps_irradiance_free(light);
+    stage_free(&s);
+}
+
 /* All bounces: one is far too dark, the lattice makes up the rest. */
 static void the_lattice_continues_where_one_bounce_ends(void **state) {
     (void)state;
@@ -238,6 +272,7 @@ static void a_viewer_sees_the_errors_of_figure_7(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(components_of_leaf_have_the_brightness_of_one_bounce),
+        cmocka_unit_test(the_unbiased_sun_holds_from_every_side),
         cmocka_unit_test(the_lattice_continues_where_one_bounce_ends),
         cmocka_unit_test(faint_leaves_need_no_lattice),
         cmocka_unit_test(leaves_may_turn_without_new_attenuations),

@@ -28,7 +28,13 @@ typedef struct pps_light_field {
     float *depth, *thickness; /* [c] along the sun's light, as the model takes them */
     float *g_factor;          /* [c] for the sun; 1 where nothing is compensated */
     int sweeps;               /* `lattice`: of the last solve; else 0 */
-    void *state;              /* the model's own, kept from solve to solve */
+    /* Of models that light leaf by leaf, instead of what the cells give; else NULL.
+     * [2 * (leaf * n_bands + b) + face]: irradiance of a face by scattered light, and by
+     * the sky; [leaf][face]: mean over the leaf of the cosine to the sun where it is
+     * seen. */
+    const float *leaf_scattered, *leaf_sky;
+    const float (*leaf_sun)[2];
+    void *state; /* the model's own, kept from solve to solve */
 } pps_light_field;
 
 /* Solve the cells. *field NULL: make one. Else it comes from an earlier solve of the same

@@ -58,7 +58,7 @@ PPS_API pps_status pps_leaf_visibility(const pps_scene *scene, int samples,
 typedef enum {
     PPS_SUN_PRINTED, /* B-Eq. 7: the mean of the depths, in an exponential: low, for the
                         mean of exponentials is more than the exponential of the mean */
-    PPS_SUN_UNBIASED /* the mean of the attenuations */
+    PPS_SUN_UNBIASED /* the attenuations interpolated to the sun's direction: their mean */
 } pps_sun_mean;
 
 /* Irradiance of both faces of every leaf from its own attenuations: the sky (B-Eq. 6,
