@@ -12,9 +12,9 @@
  * change without it. */
 #define PPS_AUTO_CANDIDATES(X)                                                         \
     X("hemispheric", 0, 1)                                                             \
-    X("single", 0, 6)                                                                 \
+    X("single", 0, 6)                                                                  \
     X("eddington", 0, 12)                                                              \
-    X("spp-refined", 0, 29)                                                           \
+    X("spp-refined", 0, 29)                                                            \
     X("fourstream", 0, 63)                                                             \
     X("exact", 4, 10)                                                                  \
     X("exact", 8, 19)                                                                  \
