@@ -26,6 +26,9 @@ double pps_exp1(double t, double a, double b) {
 }
 
 double pps_exp1_known(double t, double k, double c, double ekt, double ect) {
+    if (isinf(t)) {
+        return pps_exp1(t, k, c);
+    }
     double z = (c - k) * t;
     if (fabs(z) > 1) {
         return (ekt - ect) / (c - k); /* the two differ by a factor e at least */

@@ -13,11 +13,7 @@
 static const double PI = 3.14159265358979323846;
 
 double pps_hg(double g, double cos_theta) {
-    /* (1 - g)^2 + 2 g (1 - x) keeps its digits near the peaks, where 1 + g^2 - 2 g x
-     * would cancel. */
-    double base = g >= 0 ? (1 - g) * (1 - g) + 2 * g * (1 - cos_theta)
-                         : (1 + g) * (1 + g) - 2 * g * (1 + cos_theta);
-    return (1 - g) * (1 + g) / (4 * PI * base * sqrt(base));
+    return (1 - g) * (1 + g) / (4 * PI) / pps_hg_over(g, cos_theta);
 }
 
 double pps_cos_degrees(double angle) {
@@ -39,15 +35,13 @@ double pps_cos_scattering(double mu0, double mu, double phi) {
 
 PPS_CLONES void pps_hg_azimuths(double g, double mu0, double mu, size_t n,
                                 const double *restrict cosine, double *restrict p) {
-    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu)), size = fabs(g);
-    double peak = (1 - size) * (1 - size), side = g < 0 ? -1 : 1;
+    double sines = sqrt((1 - mu0) * (1 + mu0) * (1 - mu) * (1 + mu));
     double power = (1 - g) * (1 + g) / (4 * PI);
     for (size_t i = 0; i < n; i++) {
         double x = mu0 * mu + sines * cosine[i];
         x = x > 1 ? 1 : x;
         x = x < -1 ? -1 : x;
-        double base = peak + 2 * size * (1 - side * x);
-        p[i] = power / (base * sqrt(base));
+        p[i] = power / pps_hg_over(g, x);
     }
 }
 

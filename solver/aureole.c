@@ -23,6 +23,7 @@
 #include <math.h>
 
 #include "core/lanes.h"
+#include "core/phase.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -64,10 +65,8 @@ PPS_CLONES static void peak_sources(double f, double g, double mu0, double cosin
         double sines = sqrt(sine0 * (1 - mu[i]) * (1 + mu[i]));
         double here = mu0 * mu[i] + sines * cosine;
         here = here > 1 ? 1 : here;
-        double base = (1 - g) * (1 - g) + 2 * g * (1 - here);
-        double base2 = (1 - g2) * (1 - g2) + 2 * g2 * (1 - here);
         x[i] = here;
-        source[i] = once / (base * sqrt(base)) - twice / (base2 * sqrt(base2));
+        source[i] = once / pps_hg_over(g, here) - twice / pps_hg_over(g2, here);
     }
 }
 

@@ -175,9 +175,7 @@ static void resonant_part(pps_order *order, int j, const pps_beams *beams, size_
     pps_solution *s = &order->solution;
     size_t at = (size_t)j * beams->padded + b;
     pps_mode mode = mode_of_beam(order, j, w, beams, b);
-    double theta =
-        isinf(w) ? 0
-                 : pps_exp1_known(w, mode.k, mode.q, order->decay[j], beams->decay[b]);
+    double theta = pps_exp1_known(w, mode.k, mode.q, order->decay[j], beams->decay[b]);
     s->p[at] = 0;
     s->r[at] = mode.r;
     edge->psi[b] = 0;

@@ -8,6 +8,7 @@
 #include <ppscat/phase.h>
 
 #include "core/legendre.h"
+#include "core/phase.h"
 #include "core/vector.h"
 #include "solver/aureole.h"
 #include "solver/field.h"
@@ -38,15 +39,13 @@ static void beam_integrals(pps_field *s, size_t b) {
 PPS_CLONES static void exact_sources(size_t n, double factor, double g, double mu0,
                                      double cosine, const double *restrict mu,
                                      double sign, double *restrict source) {
-    double sine0 = (1 - mu0) * (1 + mu0), size = fabs(g), side = g < 0 ? -1 : 1;
-    double peak = (1 - size) * (1 - size), power = (1 - g) * (1 + g) / (4 * PI);
+    double sine0 = (1 - mu0) * (1 + mu0), power = (1 - g) * (1 + g) / (4 * PI);
     for (size_t i = 0; i < n; i++) {
         double sines = sqrt(sine0 * (1 - mu[i]) * (1 + mu[i]));
         double x = mu0 * (sign * mu[i]) + sines * cosine;
         x = x > 1 ? 1 : x;
         x = x < -1 ? -1 : x;
-        double base = peak + 2 * size * (1 - side * x);
-        source[i] = factor * (power / (base * sqrt(base)));
+        source[i] = factor * (power / pps_hg_over(g, x));
     }
 }
 

@@ -160,7 +160,7 @@ PPS_CLONES static void sum_exponentials(const pps_order *order, size_t padded,
 static void special_state(const pps_mode *mode, double tau, double ekt, double eqt,
                           double *psi, double *phi) {
     if (mode->kind == PPS_MODE_RESONANT) {
-        double theta = isinf(tau) ? 0 : pps_exp1_known(tau, mode->k, mode->q, ekt, eqt);
+        double theta = pps_exp1_known(tau, mode->k, mode->q, ekt, eqt);
         *psi = mode->p * theta;
         *phi = mode->k * *psi;
     } else {

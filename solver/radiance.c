@@ -97,6 +97,7 @@ static pps_status field_alloc(pps_field *s) {
     return PPS_OK;
 }
 
+/* Depths, and along rays the roots of e^(-c t) and their squares. */
 static void place_depths(pps_field *s) {
     double w = pps_dom_scaled_thickness(s->dom);
     for (size_t k = 0; k < s->at->n_tau; k++) {
@@ -104,14 +105,13 @@ static void place_depths(pps_field *s) {
         s->rest[k] = isinf(w) ? PPS_FAR : w - s->tau[k];
         for (size_t i = 0; i < s->n_slots; i++) {
             double t = i < s->view->n_down ? s->tau[k] : s->rest[k];
-            s->ect[k * s->n_slots + i] = -t * s->view->c[i];
+            s->root[k * s->n_slots + i] = -t * s->view->c[i] / 2;
         }
     }
-    for (size_t i = 0; i < s->rays; i++) {
-        s->root[i] = s->ect[i] / 2;
-    }
-    pps_exp_array(s->rays, s->ect, s->ect);
     pps_exp_array(s->rays, s->root, s->root);
+    for (size_t i = 0; i < s->rays; i++) {
+        s->ect[i] = s->root[i] * s->root[i];
+    }
 }
 
 /* Adds the terms; counts the orders in a row that are below the tolerance everywhere.

@@ -226,6 +226,9 @@ static void infinite_distance_leaves_the_zero_rate_alone(void **state) {
     assert_close(pps_exp1(INFINITY, 3, 0), 1 / 3.0, 1e-15, 0);
     assert_close(pps_exp1(INFINITY, 3, 4), 0, 0, 0);
     assert_close(pps_exp1(INFINITY, 3, 3), 0, 0, 0);
+    assert_close(pps_exp1_known(INFINITY, 0, 4, 1, 0), 0.25, 1e-15, 0);
+    assert_close(pps_exp1_known(INFINITY, 3, 4, 0, 0), 0, 0, 0);
+    assert_close(pps_exp1_known(INFINITY, 3, 3, 0, 0), 0, 0, 0);
     assert_close(pps_exp2(INFINITY, 5, 0, 4), 0.05, 1e-15, 0);
     assert_close(pps_exp2(INFINITY, 5, 0, 5), 0.04, 1e-15, 0);
     assert_close(pps_exp2(INFINITY, 2, 2, 2), 0, 0, 0);

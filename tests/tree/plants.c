@@ -121,3 +121,14 @@ pps_scene *three_bands(bool periodic, bool ground) {
     assert_int_equal(pps_scene_index(scene), PPS_OK);
     return scene;
 }
+
+void set_albedos(pps_scene *scene, int n, const double *albedo) {
+    scene->n_bands = n;
+    for (int b = 0; b < n; b++) {
+        pps_leaf_optics *o = &scene->prototype[0].optics;
+        scene->sun.irradiance[b] = 1;
+        for (int face = 0; face < 2; face++) {
+            o->reflectance[face][b] = o->transmittance[face][b] = albedo[b] / 2;
+        }
+    }
+}

@@ -26,6 +26,10 @@ pps_scene *scene_of(pps_mesh *mesh);
 pps_scene *crown_scene(pps_crown_shape shape, double leaf_area_index, uint32_t n_leaves,
                        uint64_t seed);
 
+/* Give a scene of one prototype n bands of these albedos, half reflected and half
+ * transmitted on both faces, under a sun of 1. */
+void set_albedos(pps_scene *scene, int n, const double *albedo);
+
 /* A layer that repeats with period 1, filled evenly to height 1 with n small squares of
  * random orientation, `leaf_area_index` of them over each other. */
 pps_scene *layer_scene(double leaf_area_index, uint32_t n, uint64_t seed);

@@ -12,6 +12,7 @@
 
 #include <ppscat/tree/experiment.h>
 
+#include "plants.h"
 #include "support/support.h"
 
 enum { CONTENDERS_MAX = 32 };
@@ -215,14 +216,7 @@ static void both_hold_on_a_tree_made_by_others(void **state) {
     pps_irradiance *truth;
     assert_int_equal(pps_mesh_read(TREES "/oak_small.obj", NULL, &mesh, NULL), PPS_OK);
     assert_int_equal(pps_scene_single(mesh, 0.5, &scene), PPS_OK);
-    scene->n_bands = 3;
-    for (int b = 0; b < 3; b++) {
-        pps_leaf_optics *o = &scene->prototype[0].optics;
-        scene->sun.irradiance[b] = 1;
-        for (int face = 0; face < 2; face++) {
-            o->reflectance[face][b] = o->transmittance[face][b] = albedo[b] / 2;
-        }
-    }
+    set_albedos(scene, 3, albedo);
     assert_int_equal(pps_scene_index(scene), PPS_OK);
     pps_cells_options options = {.samples = samples, .seed = first_seed};
     pps_trace_options trace = {.rays = n_rays, .seed = first_seed};

@@ -145,14 +145,7 @@ static void it_holds_on_trees_made_by_others(void **state) {
         snprintf(path, sizeof path, "%s%s", PPS_DATA_DIR, trees[t].file);
         assert_int_equal(pps_mesh_read(path, NULL, &mesh, NULL), PPS_OK);
         assert_int_equal(pps_scene_single(mesh, 0.5, &scene), PPS_OK);
-        scene->n_bands = 3;
-        for (int b = 0; b < 3; b++) {
-            pps_leaf_optics *o = &scene->prototype[0].optics;
-            scene->sun.irradiance[b] = 1;
-            for (int face = 0; face < 2; face++) {
-                o->reflectance[face][b] = o->transmittance[face][b] = albedo[b] / 2;
-            }
-        }
+        set_albedos(scene, 3, albedo);
         stage s = stage_of(scene);
         pps_trace_options trace = {.rays = 250000, .seed = 88001};
         assert_int_equal(pps_trace_light(scene, &trace, &truth, NULL), PPS_OK);
